@@ -21,13 +21,21 @@ Reading order (notebooks 08, 12, 17, 18)
  8. `waypoints_and_crowds`: waypoints with labels and times, and characters that avoid each other
  9. `characters`: the protocol, the pose of a step, a walk by given commands, and the delay of its response
 10. `graph_control`: a character on a motion graph, and its look-ahead
-11. `foot_turning`: additional rotation about the planted foot, beyond that of the clips
-12. `judged_control`: one evaluation protocol for all characters
-13. `tuned`: the constants that trials chose
+11. `leg_reach`: inverse kinematics of a leg in closed form
+12. `held_feet`: standing feet are held while a character moves on
+13. `root_turning`: the way to steer: additional rotation about the root, longer or shorter steps, held feet
+14. `foot_turning`: additional rotation about the planted foot, as a comparison
+15. `judged_control`: one evaluation protocol for all characters
+16. `tuned`: the constants that trials chose
 
 References
 ----------
 .. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
+.. [KSG02] L. Kovar, J. Schreiner, M. Gleicher, *Footskate Cleanup for Motion Capture Editing*, SCA 2002,
+   doi 10.1145/545261.545277.
+.. [TGB00] D. Tolani, A. Goswami, N. Badler, *Real-Time Inverse Kinematics Techniques for Anthropomorphic
+   Limbs*, Graphical Models 62, 2000, doi 10.1006/gmod.2000.0528.
+.. [Bol18] D. Bollo, *Inertialization: High-Performance Animation Transitions in Gears of War*, GDC 2018.
 .. [Gle01] M. Gleicher, *Motion Path Editing*, I3D 2001, doi 10.1145/364338.364400.
 """
 

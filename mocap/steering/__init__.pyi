@@ -5,6 +5,7 @@ from .characters import steer as steer
 from .followed import Followed as Followed
 from .foot_turning import FootTurner as FootTurner
 from .graph_control import Controller as Controller
+from .held_feet import HeldFeet as HeldFeet
 from .judged_control import ControlReport as ControlReport
 from .judged_control import command_headings as command_headings
 from .judged_control import judge_control as judge_control
@@ -13,6 +14,7 @@ from .path_following import follow_as_2002 as follow_as_2002
 from .path_following import follow_path as follow_path
 from .path_objective import PathRequest as PathRequest
 from .path_objective import Settings as Settings
+from .root_turning import RootTurner as RootTurner
 from .waypoints_and_crowds import Waypoint as Waypoint
 from .waypoints_and_crowds import through_waypoints as through_waypoints
 from .waypoints_and_crowds import walk_crowd as walk_crowd

@@ -18,6 +18,7 @@ from mocap._shared.ties import in_order
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
+from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, on_ground
 from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
@@ -40,6 +41,9 @@ class Controller:
 
     A step makes little garbage. But when Python's collector visits a large graph, this takes 30 to 90 ms.
     Where every step must be on time, call `gc.freeze()` after the graph is built.
+
+    A figure that is turned in addition, up to `rotation_rate` radians per second, needs no clip that turns.
+    The look-ahead counts on it: it turns the walks towards the command as far as their time allows.
 
     Parameters
     ----------
@@ -79,6 +83,7 @@ class Controller:
         self.node = 0 if start is None else self.graph.index(start)
         self.end_turn = self.turn
         self.command = (0j, -1)  # velocity, label
+        self.rotation_rate = 0.0  # radians per second
         self._restart()
 
     def step(self, heading: float, speed: float, label: str = "") -> Pose:
@@ -129,6 +134,11 @@ class Controller:
             return 0
         return int(self.graph.frames[self.edges].sum()) - self.frame
 
+    @property
+    def example(self) -> Motion:
+        """The longest clip of the graph, which shows how the joints bend."""
+        return max(self.graph.source.clips, key=len)
+
     def feet(self) -> Points:
         """Return the ground positions of ankles and balls in the last pose, left before right, (4,).
 
@@ -149,15 +159,21 @@ class Controller:
         return np.asarray(self.turn * feet + self.move)
 
     def turn_about(self, point: complex, angle: float) -> None:
-        """Turn what comes from now on about a point on the ground, z + ix, by an angle in radians.
-
-        The walks ahead turn along; what their first macro-edges cost stays, as good as the angle is small.
-        """
+        """Turn what comes from now on about a point on the ground, z + ix, by an angle in radians."""
         rotation = cmath.exp(1j * angle)
+        self.transform_by(rotation, point - rotation * point)
+
+    def transform_by(self, rotation: complex, translation: complex) -> None:
+        """Transform what comes from now on by p ↦ rotation · p + translation, on the ground, z + ix.
+
+        The walks ahead turn along, unless they count on it (`rotation_rate`). What their first macro-edges
+        cost stays, as good as the angle is small.
+        """
         self.turn = rotation * self.turn
-        self.move = rotation * (self.move - point) + point
+        self.move = rotation * self.move + translation
         self.end_turn *= rotation
-        self.walks = self.walks._replace(rotation=rotation * self.walks.rotation)
+        if not self.rotation_rate:
+            self.walks = self.walks._replace(rotation=rotation * self.walks.rotation)
 
     @cached_property
     def _feet(self) -> list[Points]:
@@ -205,7 +221,13 @@ class Controller:
             return
         steps = self.macro_edges.take(macro_edge)
         seconds = steps.frames / self.fps
-        error = short.rotation[row] * self.displacements[macro_edge] - velocity * seconds
+        moved = short.rotation[row] * self.displacements[macro_edge]
+        if self.rotation_rate:
+            waiting = np.where(short.macro_edge[row] < 0, self.frames_left / self.fps, 0.0)
+            mean, end = self._expected_turns(moved, waiting, seconds)
+            moved = mean * moved
+            steps = steps._replace(rotation=end * steps.rotation)
+        error = moved - velocity * seconds
         cost = (error.real**2 + error.imag**2) / seconds + steps.cost
         if label >= 0:
             cost += LABEL * self.seconds_without[label, macro_edge]
@@ -213,6 +235,25 @@ class Controller:
         first_macro_edge = np.where(short.macro_edge[row] < 0, macro_edge, short.macro_edge[row])
         walks = States.join([self.walks.take(~is_short), longer._replace(macro_edge=first_macro_edge)])
         self.walks = walks.take(in_order(walks.cost / walks.frames, EQUAL)[:WIDTH])
+
+    def _expected_turns(self, moved: Points, waiting: Array, seconds: Array) -> tuple[Points, Points]:
+        """Return the rotations by which the figure will have been turned towards the command.
+
+        Parameters
+        ----------
+        moved : the displacement of each macro-edge, if the figure is not turned.
+        waiting, seconds : the time until a macro-edge begins, and its duration.
+
+        Returns
+        -------
+        The mean rotation during each macro-edge and that at its end, as complex numbers.
+        """
+        velocity, _ = self.command
+        missing = np.angle(velocity * np.conj(moved)) if velocity else np.zeros(len(moved))
+        at_start = np.clip(missing, -self.rotation_rate * waiting, self.rotation_rate * waiting)
+        largest = self.rotation_rate * (waiting + seconds)
+        at_end = np.clip(missing, -largest, largest)
+        return np.exp(0.5j * (at_start + at_end)), np.exp(1j * at_end)
 
     def _choose(self) -> None:
         """Take the first macro-edge of the best walk, and look ahead from its end."""

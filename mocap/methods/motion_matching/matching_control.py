@@ -1,16 +1,25 @@
 """A character by motion matching: search, cut, and let the difference die away [Cla16, Hol20]."""
 
+import math
+from collections import deque
+
 import numpy as np
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Indices, Mask
 from mocap.body import rotations
+from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.errors import warn
 from mocap.methods.motion_matching.nearest_frames import EQUAL, FrameSearch, Wants, fade, foresee
-from mocap.methods.motion_matching.pose_database import FUTURE, PoseDatabase
+from mocap.methods.motion_matching.pose_database import FUTURE, POSE, PoseDatabase
 from mocap.steering.characters import Pose, require_command
 
 USUAL = Wants()
+BACK = (0.1, 0.6)  # seconds before now: poses of the last stride to which no cut returns
+SIMILAR = 0.1  # distance of standardised poses up to which they count as one, as of a character that stands
+HORIZON = 1.0  # seconds that the features look ahead
+SHARPEST = 99  # percentile of the frames, of how far they turn within the horizon
+SLOW = 4.0  # seconds: clips that turn more slowly to a command than in this time are warned of
 
 
 class MotionMatcher:
@@ -61,6 +70,10 @@ class MotionMatcher:
         self._steps = 0
         self._wait = 0  # steps until the next search
         self._command: tuple[float, float, str] | None = None
+        self._is_told = False  # that the clips hardly turn
+        self._played: deque[int] = deque(maxlen=round(BACK[1] * self.fps))
+        self.rotation_rate = 0.0  # radians per second, of one who turns the figure in addition
+        self.sharpest = _sharpest_turn(database)  # radians
 
     def step(self, heading: float, speed: float, label: str = "") -> Pose:
         """Walk on by one frame.
@@ -78,7 +91,8 @@ class MotionMatcher:
 
         Warns
         -----
-        MocapWarning : for a new speed outside what 98 % of the clips' frames have.
+        MocapWarning : for a new speed outside what 98 % of the clips' frames have, and once for a turn that
+            would take the clips more than four seconds.
         """
         table = self.database
         command = (heading, speed, label)
@@ -96,11 +110,25 @@ class MotionMatcher:
         blending_steps = 2 * self.wants.fade * self.fps
         is_blending = bool(self.cuts) and self._steps - self.cuts[-1] < blending_steps
         contacts = {name: bool(mark[self.frame]) for name, mark in table.motion.contacts.items()}
+        self._played.append(self.frame)
         self.frame = min(self.frame + 1, int(table.last[self.frame]))
         self._steps += 1
         self._wait -= 1
         self.offset, self.offset_speed = fade(self.offset, self.offset_speed, self.wants.fade, 1 / self.fps)
         return Pose(root, turns, is_blending, contacts)
+
+    @property
+    def example(self) -> Motion:
+        """All clips, which show how the joints bend."""
+        return self.database.motion
+
+    def transform_by(self, rotation: complex, translation: complex) -> None:
+        """Transform what comes from now on by p ↦ rotation · p + translation, on the ground, z + ix."""
+        transform = PlanarTransform.from_complex(rotation, translation)
+        self.place = transform @ self.place
+        turn = rotations.about_y(transform.angle)
+        self.offset[0] = rotations.rotate(turn, self.offset[0])
+        self.offset_speed[0] = rotations.rotate(turn, self.offset_speed[0])
 
     def _warn_of_speed(self, speed: float) -> None:
         """Warn of a new speed outside those of 98 % of the frames."""
@@ -120,14 +148,51 @@ class MotionMatcher:
         table = self.database
         frame = self.frame
         search = self._searches[label]
-        goal = speed * complex(np.exp(1j * (heading - self.place.angle - table.heading[frame])))
+        bearing = math.remainder(heading - self.place.angle - table.heading[frame], 2 * math.pi)
+        bearing = self._possible_bearing(bearing)
+        goal = speed * complex(np.exp(1j * bearing))
         query = table.values[frame].copy()
         query[FUTURE] = foresee(table, frame, goal, self.wants.halflife)
         can_stay = frame < table.last[frame] and (not label or bool(table.motion.labels[label][frame]))
         cost_of_staying = search.cost(query, frame) - self.wants.bonus if can_stay else np.inf
-        new, cost = search.nearest(query, frame, round(self.wants.near * self.fps))
+        new, cost = search.nearest(query, self._goes_on)
+        if new < 0 and not can_stay:
+            new, cost = search.nearest(query, self._is_elsewhere)
         if cost < cost_of_staying - EQUAL:
             self._cut_to(new)
+
+    def _is_elsewhere(self, frames: Indices) -> Mask:
+        """Return which frames are not about the one that plays, to which a cut would show nothing new."""
+        return np.asarray(np.abs(frames - self.frame) >= round(self.wants.near * self.fps))
+
+    def _goes_on(self, frames: Indices) -> Mask:
+        """Return which frames lead on: their pose is no more like those of the last stride than like mine.
+
+        Without it a character whose request no clip fulfils returns again and again to the moment of a stride
+        that comes nearest to it, and glides on one pose.
+        """
+        poses = self.database.values[:, POSE]
+        until = len(self._played) - round(BACK[0] * self.fps)
+        past = poses[list(self._played)[: max(0, until)]]
+        candidates = poses[frames]
+        from_now = np.linalg.norm(candidates - poses[self.frame], axis=1)
+        from_past = np.linalg.norm(candidates[:, None] - past, axis=2).min(axis=1, initial=np.inf)
+        return np.asarray(self._is_elsewhere(frames) & (from_now <= from_past + SIMILAR))
+
+    def _possible_bearing(self, bearing: float) -> float:
+        """Return the part of a turn that the clips are asked for, radians.
+
+        Less whatever the figure is turned in addition within the horizon, and no more than clips turn in it:
+        a future that no clip has is as far from each frame, so that the character would play one pose.
+        """
+        if self.rotation_rate:
+            bearing = math.copysign(max(0.0, abs(bearing) - HORIZON * self.rotation_rate), bearing)
+        elif abs(bearing) > SLOW * self.sharpest / HORIZON and not self._is_told:
+            self._is_told = True
+            turns = f"The clips turn by {math.degrees(self.sharpest):.0f}° in a second at most"
+            command = f"a command asks for {abs(math.degrees(bearing)):.0f}°"
+            warn(f"{turns}, and {command}: steering.RootTurner(character) turns the figure.")
+        return max(-self.sharpest, min(self.sharpest, bearing))
 
     def _cut_to(self, new: int) -> None:
         """Play another frame: align its track with that of the current one; the residual is the offset."""
@@ -157,3 +222,11 @@ class MotionMatcher:
         speeds: Array = self.database.speeds[frame].copy()
         speeds[0] = rotations.rotate(rotations.about_y(place.angle), speeds[0])
         return speeds
+
+
+def _sharpest_turn(database: PoseDatabase) -> float:
+    """Return by how much 99 % of the usable frames turn at most within a second, radians."""
+    last = slice(-2, None)  # the direction after a second, (x, z)
+    directions = database.values[:, last] * database.scale[last] + database.mean[last]
+    turns = np.abs(np.arctan2(*directions[database.usable].T))
+    return float(np.percentile(turns, SHARPEST))

@@ -9,12 +9,14 @@ velocity v, to a goal g is after t seconds at
 1.211 h.
 """
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.spatial import cKDTree
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Indices, Mask
 from mocap._shared.records import NamedTuple
 from mocap._shared.ties import first_least
 from mocap.errors import MocapError, NoWalk
@@ -22,11 +24,10 @@ from mocap.methods.motion_matching.pose_database import AHEAD, FUTURE, PoseDatab
 
 PULL = 2 * np.log(2)  # times the half-life: how hard a spring pulls
 
-# Squared distances of standardised features, without unit. In 32 bits they are right to some 1e-5 of a
-# frame's own size, so those within `NEARLY` of the least are measured again in 64 bits. Then those that
-# differ by less than `EQUAL` are equal, and the first frame is taken, or the one that plays.
-NEARLY = 0.01
+# Squared distances of standardised features, without unit. Those that differ by less are equal, and the first
+# frame is taken, or the one that plays.
 EQUAL = 1e-8
+CANDIDATES = 8  # nearest frames that a search compares first, four times as many if all of them are excluded
 
 BEHIND = 1e-9  # radians: a goal so nearly straight behind is behind, and reached by a turn to the left
 
@@ -121,9 +122,7 @@ class Wants(NamedTuple):
 
 
 class FrameSearch:
-    """A search among the usable frames of a database, by one product.
-
-    |x - q|² = |x|² - 2 x·q + |q|², so that one product of a matrix with the query compares all frames.
+    """A search among the usable frames of a database, by a k-d tree.
 
     Parameters
     ----------
@@ -141,8 +140,8 @@ class FrameSearch:
     >>> from mocap import body, datasets
     >>> from mocap.methods.motion_matching.pose_database import tabulate
     >>> table = tabulate([body.resample(datasets.sample("walk_curve_1"), 30)])
-    >>> [FrameSearch(table).nearest(table.values[100], frame, margin=6)[0] for frame in (0, 94, 95)]
-    [100, 100, 101]
+    >>> [FrameSearch(table).nearest(table.values[100], lambda f: f >= first)[0] for first in (0, 101)]
+    [100, 101]
     >>> FrameSearch(table).scale.max(), FrameSearch(table, future=3.0).scale.max()
     (np.float64(1.0), np.float64(3.0))
     """
@@ -158,29 +157,41 @@ class FrameSearch:
         self.scale = np.ones(database.values.shape[1])
         self.scale[FUTURE] = future
         self.values = database.values * self.scale
-        self.bank = self.values[self.frames].astype(np.float32)
-        self.sizes = (self.bank**2).sum(axis=1)
+        self.tree = cKDTree(self.values[self.frames])
 
     def cost(self, query: Array, frame: int) -> float:
         """Compute the squared distance of a frame from a query, (27,)."""
         difference = query * self.scale - self.values[frame]
         return float(difference @ difference)
 
-    def nearest(self, query: Array, playing: int, margin: int) -> tuple[int, float]:
-        """Find the frame nearest to a query, and its squared distance.
+    def nearest(self, query: Array, allowed: Callable[[Indices], Mask]) -> tuple[int, float]:
+        """Find the allowed frame nearest to a query, and its squared distance, by a k-d tree.
 
-        Frames within `margin` of the frame that is playing are left out. If no other is usable, return that
-        frame, at an infinite distance.
+        Parameters
+        ----------
+        query : shape (27,), standardised.
+        allowed : says of frame numbers (N,) which may be found.
+
+        Returns
+        -------
+        The frame, of those at equal distances the first, and its squared distance; -1 and infinity if no
+        usable frame is allowed.
         """
-        costs = self.sizes - 2 * (self.bank @ (query * self.scale).astype(np.float32))
-        costs[np.abs(self.frames - playing) < margin] = np.inf
-        lowest = costs.min()
-        if not np.isfinite(lowest):
-            return playing, np.inf
-        candidates = self.frames[costs <= lowest + NEARLY]
-        exact = [self.cost(query, frame) for frame in candidates.tolist()]
-        best = int(first_least(exact, EQUAL))
-        return int(candidates[best]), exact[best]
+        scaled = query * self.scale
+        count = min(CANDIDATES, len(self.frames))
+        while True:
+            _, rows = self.tree.query(scaled, np.arange(1, count + 1))
+            frames = self.frames[rows]
+            candidates = np.sort(frames[allowed(frames)])
+            costs = ((self.values[candidates] - scaled) ** 2).sum(axis=1)
+            is_complete = count == len(self.frames)
+            farthest = self.cost(query, int(frames[-1]))
+            if len(costs) and (is_complete or farthest > costs.min() + EQUAL):
+                best = int(candidates[first_least(costs, EQUAL)])
+                return best, self.cost(query, best)
+            if is_complete:
+                return -1, np.inf
+            count = min(4 * count, len(self.frames))
 
 
 def foresee(database: PoseDatabase, frame: int, goal: complex, halflife: float) -> Array:

@@ -28,6 +28,7 @@ GROUPS = {
     "places ahead": slice(15, 21),
     "directions ahead": slice(21, 27),
 }
+POSE = slice(0, 15)  # feet and hips
 FUTURE = slice(15, 27)  # places and directions ahead
 WEIGHTS = dict(zip(GROUPS, (0.75, 1.0, 1.0, 1.0, 1.5), strict=True))  # [Hol20]
 END = 1.0  # seconds before a clip's end from which no frame is found: its future is not known

@@ -10,7 +10,7 @@ from mocap.blending.joining import blend
 from mocap.blending.weights import cubic_weights
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, concatenate
-from mocap.body.planar import PlanarTransform
+from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError, NoWalk
 from mocap.matching.point_clouds import align
 from mocap.methods.parametric_graphs.made_motions import HALF, WINDOW, MadeMotion, make_motion
@@ -98,6 +98,7 @@ class ParametricController:
             raise MocapError(f"There is no node '{self.node}'; there are: {', '.join(graph)}.")
         space: Space = graph.nodes[self.node]["space"]
         self.target = np.full(3, np.nan)
+        self.rotation_rate = 0.0  # radians per second, of one who turns the figure in addition
         self.skeleton = space.examples.skeleton
         self.fps = space.examples.fps
         usual = {"turn": 0.0, "speed": float(np.median(space.examples.values[:, 1]))}
@@ -106,7 +107,7 @@ class ParametricController:
         self.parameters = np.clip(parameters, space.low, space.high)
         self.chosen: list[Chosen] = []
         self.current = make_motion(space, self.parameters)
-        self.transform = PlanarTransform(0.0, 0.0, 0.0)
+        self.transform = IDENTITY
         self._play([], 0, self.current.frame(0.0))
 
     @property
@@ -153,8 +154,22 @@ class ParametricController:
         frame = self._next
         motion = self._frames
         self._next += 1
+        root, turns = self._transform_since.apply_frames(
+            motion.root_positions[frame], motion.rotations[frame]
+        )
         marks = {name: bool(mark[frame]) for name, mark in motion.contacts.items()}
-        return Pose(motion.root_positions[frame], motion.rotations[frame], frame in self._blended, marks)
+        return Pose(root, turns, frame in self._blended, marks)
+
+    @property
+    def example(self) -> Motion:
+        """The current motion, which shows how the joints bend."""
+        return self.current.motion
+
+    def transform_by(self, rotation: complex, translation: complex) -> None:
+        """Transform what comes from now on by p ↦ rotation · p + translation, on the ground, z + ix."""
+        transform = PlanarTransform.from_complex(rotation, translation)
+        self.transform = transform @ self.transform
+        self._transform_since = transform @ self._transform_since
 
     def _play(self, previous: list[Motion], blended: int, first: int) -> None:
         """Append the current motion, from frame `first` to the decision, after `blended` frames of a seam."""
@@ -163,6 +178,7 @@ class ParametricController:
         soonest = min(self.current.frame(box.leave) for box in self.boxes.values()) - HALF
         self._decision = max(soonest, first)
         self._next = 0
+        self._transform_since = IDENTITY  # of the frames, since they were generated
         start = sum(map(len, previous)) - blended
         self._blended = range(start, start + blended)
         self._frames = concatenate([*previous, *self._transformed(first, self._decision)])

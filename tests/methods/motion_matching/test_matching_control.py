@@ -9,8 +9,8 @@ from mocap.body.kinematics import joint_positions
 from mocap.errors import NoWalk
 from mocap.graphs import build, compile_graph, prune
 from mocap.methods.motion_matching import MotionMatcher, Wants, tabulate
-from mocap.quality.seam_measures import spread
-from mocap.steering import Controller, command_headings, judge_control, measure_delay, steer
+from mocap.quality.seam_measures import foot_sliding, spread
+from mocap.steering import Controller, RootTurner, command_headings, judge_control, measure_delay, steer
 from tests.bundled import WALKS, clips
 from tests.methods.motion_matching.matched import walks
 from tests.refusals import refused, told, unwarned
@@ -145,3 +145,45 @@ def test_it_stands_where_a_clip_stands_and_shuffles_where_none_does():
 
     assert stopped(walks()) > 0.1
     assert stopped(tabulate(clips(*WALKS, "stop_and_go"))) < 0.01
+
+
+@cache
+def straight():
+    """Return two straight walks of 8 s, which turn by a few degrees in a second."""
+    (walk,) = clips("walk_straight")
+    return tabulate([walk[:240], walk[120:360]])
+
+
+def played(character, seconds=20):
+    """Return the frames that a character plays, told to turn every two seconds."""
+    frames = []
+    for heading in command_headings(seconds, 30, seed=1):
+        character.step(heading, 1.2)
+        frames.append(character.frame)
+    return np.array(frames)
+
+
+@pytest.mark.filterwarnings("ignore:The clips turn by")
+def test_it_never_glides_on_one_pose_though_no_clip_turns():
+    """Strides follow one another. A character that returns to one pose slides by 40 cm and more."""
+    walked = steer(MotionMatcher(straight()), command_headings(20, 30, seed=1), 1.2).motion
+    ground = joint_positions(walked)[:, [walked.skeleton.index("lfoot"), walked.skeleton.index("rfoot")], 1]
+    lifts = np.diff((ground > ground.mean(axis=0)).astype(int), axis=0) > 0
+    assert lifts.sum(axis=0).min() >= 15  # a step of each foot every 1.1 s
+    assert np.mean([plant.far for plant in foot_sliding(walked)]) < 15
+    assert len(set(played(MotionMatcher(straight())).tolist())) > 100
+
+
+def test_clips_that_hardly_turn_are_told_of_once_unless_the_figure_is_turned():
+    matcher = MotionMatcher(straight())
+    unwarned(matcher.step, 0.0, 1.2)
+    told(r"turn by \d+° in a second at most, and a command asks for 90°", matcher.step, np.pi / 2, 1.2)
+    unwarned(matcher.step, -np.pi / 2, 1.2)
+    turner = RootTurner(MotionMatcher(straight()))
+    for heading in (0.0, np.pi / 2):
+        unwarned(turner.step, heading, 1.2)
+
+
+def test_a_turned_character_needs_no_clip_that_turns():
+    delay = measure_delay(RootTurner(MotionMatcher(straight())), speed=1.2, turns=10)
+    assert delay.mean < 0.95 and delay.never == 0

@@ -109,25 +109,30 @@ def queries(count, seed=0):
 
 
 @pytest.mark.parametrize("future", [1.0, 0.25])
-def test_the_product_finds_what_a_loop_finds(future):
+def test_the_tree_finds_what_a_loop_finds(future):
     table, weigh = walks(), np.ones(27)
     search = FrameSearch(table, future=future)
     weigh[db.FUTURE] = future
     for number, query in enumerate(queries(30)):
-        now, near = 37 * number, 6
+        now = 37 * number
         costs = (((query - table.values) * weigh) ** 2).sum(axis=1)
-        costs[~table.usable | (np.abs(np.arange(len(table)) - now) < near)] = np.inf
-        found, paid = search.nearest(query, now, near)
-        assert paid == pytest.approx(costs.min(), rel=1e-4)  # 32 bits may take a twin
+        costs[~table.usable | (np.abs(np.arange(len(table)) - now) < 6)] = np.inf
+        found, paid = search.nearest(query, lambda frames, now=now: np.abs(frames - now) >= 6)
+        assert found == costs.argmin()
         assert search.cost(query, found) == paid == pytest.approx(costs[found])
 
 
-def test_frames_near_now_are_not_found_and_where_all_are_near_none_is():
+def test_only_allowed_frames_are_found_and_where_none_is_minus_one():
+    """The nearest of all is found as well if hundreds of nearer ones are not allowed."""
     table = walks()
-    few = replace(table, usable=np.isin(np.arange(len(table)), range(100, 104)))
-    assert FrameSearch(table).nearest(table.values[200], 200, margin=0)[0] == 200
-    assert abs(FrameSearch(table).nearest(table.values[200], 200, margin=6)[0] - 200) >= 6
-    assert FrameSearch(few).nearest(table.values[50], 102, margin=6) == (102, np.inf)
+    search = FrameSearch(table)
+    assert search.nearest(table.values[200], lambda frames: frames >= 0)[0] == 200
+    assert abs(search.nearest(table.values[200], lambda f: np.abs(f - 200) >= 6)[0] - 200) >= 6
+    first = int(search.frames[-5])
+    costs = [search.cost(table.values[200], frame) for frame in search.frames[-5:].tolist()]
+    found, paid = search.nearest(table.values[200], lambda frames: frames >= first)
+    assert (found, paid) == (search.frames[-5:][np.argmin(costs)], min(costs))
+    assert search.nearest(table.values[50], lambda frames: frames < 0) == (-1, np.inf)
 
 
 def test_to_go_on_as_the_clip_does_is_to_foresee_its_future():

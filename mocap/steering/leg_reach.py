@@ -1,0 +1,351 @@
+"""Inverse kinematics of a leg in closed form, in plain numbers: two legs in one frame are too few for arrays.
+
+A leg is two bones with a hinge between them, the knee. The knee's flexion sets the distance from hip to
+ankle, and a rotation at the hip then points the leg at its target [TGB00]. All bones keep their lengths.
+Vectors are tuples (x, y, z) in metres, rotations are unit quaternions (w, x, y, z).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
+from mocap.body.kinematics import forward_kinematics, hinge_of
+from mocap.body.limbs import Leg
+from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
+
+Vector = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+
+UP: Vector = (0.0, 1.0, 0.0)
+SOFT = 0.97  # of a straight leg: up to this distance of the ankle from the hip a leg reaches its target
+STRAIGHT = 0.999  # of a straight leg: no target stretches a leg further
+CLIP_FRAMES = 3000  # frames of a clip that show how its knees bend
+
+
+def add(first: Vector, second: Vector) -> Vector:
+    """Return the sum of two vectors.
+
+    Examples
+    --------
+    >>> add((1.0, 2.0, 3.0), (1.0, 0.0, 0.0))
+    (2.0, 2.0, 3.0)
+    """
+    x, y, z = first
+    a, b, c = second
+    return x + a, y + b, z + c
+
+
+def subtract(first: Vector, second: Vector) -> Vector:
+    """Return the difference of two vectors.
+
+    Examples
+    --------
+    >>> subtract((1.0, 2.0, 3.0), (1.0, 0.0, 0.0))
+    (0.0, 2.0, 3.0)
+    """
+    x, y, z = first
+    a, b, c = second
+    return x - a, y - b, z - c
+
+
+def dot(first: Vector, second: Vector) -> float:
+    """Return the scalar product of two vectors.
+
+    Examples
+    --------
+    >>> dot((1.0, 2.0, 3.0), (1.0, 0.0, 1.0))
+    4.0
+    """
+    x, y, z = first
+    a, b, c = second
+    return x * a + y * b + z * c
+
+
+def cross(first: Vector, second: Vector) -> Vector:
+    """Return the vector product of two vectors.
+
+    Examples
+    --------
+    >>> cross((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+    (0.0, 0.0, 1.0)
+    """
+    x, y, z = first
+    a, b, c = second
+    i = y * c - z * b
+    j = z * a - x * c
+    k = x * b - y * a
+    return i, j, k
+
+
+def multiply(first: Quaternion, second: Quaternion) -> Quaternion:
+    """Return the product of two quaternions: the rotation by `second`, then by `first`.
+
+    Examples
+    --------
+    >>> multiply((0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0))
+    (0.0, 0.0, 0.0, 1.0)
+    """
+    w, x, y, z = first
+    a, b, c, d = second
+    real = w * a - x * b - y * c - z * d
+    i = w * b + x * a + y * d - z * c
+    j = w * c - x * d + y * a + z * b
+    k = w * d + x * c - y * b + z * a
+    return real, i, j, k
+
+
+def conjugate(quaternion: Quaternion) -> Quaternion:
+    """Return the inverse of a unit quaternion.
+
+    Examples
+    --------
+    >>> conjugate((0.5, 0.5, 0.5, -0.5))
+    (0.5, -0.5, -0.5, 0.5)
+    """
+    w, x, y, z = quaternion
+    return w, -x, -y, -z
+
+
+def rotate(quaternion: Quaternion, vector: Vector) -> Vector:
+    """Rotate a vector: v + w t + u × t with t = 2 u × v, for the quaternion (w, u).
+
+    Examples
+    --------
+    >>> rotate((0.0, 0.0, 1.0, 0.0), (1.0, 2.0, 3.0))
+    (-1.0, 2.0, -3.0)
+    """
+    w, x, y, z = quaternion
+    axis = (x, y, z)
+    i, j, k = cross(axis, vector)
+    twice = (2 * i, 2 * j, 2 * k)
+    turned = add(vector, cross(axis, twice))
+    return add(turned, (2 * w * i, 2 * w * j, 2 * w * k))
+
+
+def axis_rotation(axis: Vector, angle: float) -> Quaternion:
+    """Return the rotation about a unit axis by an angle in radians.
+
+    Examples
+    --------
+    >>> axis_rotation((0.0, 1.0, 0.0), math.pi)[2]
+    1.0
+    """
+    x, y, z = axis
+    sine = math.sin(angle / 2)
+    return math.cos(angle / 2), sine * x, sine * y, sine * z
+
+
+def shortest_arc(start: Vector, end: Vector) -> Quaternion:
+    """Return the smallest rotation from one direction to another, which are not opposite.
+
+    The quaternion (|a||b| + a·b, a × b), normalised, because half of its angle is that between a and a + b.
+
+    Examples
+    --------
+    >>> [round(number, 3) for number in shortest_arc((0.0, 0.0, 2.0), (3.0, 0.0, 0.0))]
+    [0.707, 0.0, 0.707, 0.0]
+    """
+    w = math.sqrt(dot(start, start) * dot(end, end)) + dot(start, end)
+    x, y, z = cross(start, end)
+    norm = math.sqrt(w * w + x * x + y * y + z * z)
+    return w / norm, x / norm, y / norm, z / norm
+
+
+def hinge_angle(axis: Vector, base: Vector, segment: Vector, distance: float) -> float:
+    """Return the angle of a hinge that brings the end of a segment to a distance from a point.
+
+    A rotation by δ about the axis n turns the segment s, and |b - R s| = d for a point b, both seen from the
+    hinge, where
+
+        P cos δ + Q sin δ = C,    P = b·s - (b·n)(s·n),    Q = b·(n × s),
+        C = (|b|² + |s|² - d²) / 2 - (b·n)(s·n).
+
+    Its two solutions are atan2(Q, P) ∓ arccos(C / √(P² + Q²)). The first one is flexed in the positive
+    direction of the axis.
+
+    Parameters
+    ----------
+    axis : unit vector.
+    base : from the hinge to the point, from the knee to the hip.
+    segment : from the hinge to its end, from the knee to the ankle.
+    distance : metres; one out of reach is replaced by the nearest one within it.
+
+    Returns
+    -------
+    Radians, in [-π, π].
+
+    Examples
+    --------
+    A straight leg of two bones of 1 m flexes by 90° to bring its ends within √2 m:
+
+    >>> angle = hinge_angle((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, -1.0, 0.0), math.sqrt(2))
+    >>> round(math.degrees(angle), 6)
+    90.0
+    """
+    along = dot(base, axis) * dot(segment, axis)
+    cosine_part = dot(base, segment) - along
+    sine_part = dot(base, cross(axis, segment))
+    needed = (dot(base, base) + dot(segment, segment) - distance * distance) / 2 - along
+    largest = math.hypot(cosine_part, sine_part)
+    cosine = max(-1.0, min(1.0, needed / largest)) if largest else 1.0
+    angle = math.atan2(sine_part, cosine_part) - math.acos(cosine)
+    return math.remainder(angle, 2 * math.pi)
+
+
+def soft_reach(target: float, unchanged: float, length: float) -> float:
+    """Limit the distance of an ankle from its hip softly, so that a knee does not snap straight.
+
+    Up to s, the larger of 97 % of the leg's length and the distance in the clip, a distance stays as it is.
+    Beyond, it approaches e, 99.9 % of the length:  e - (e - s) exp(-(d - s) / (e - s)).
+
+    Parameters
+    ----------
+    target, unchanged : distances of the target and of the ankle in the clip, metres.
+    length : of the straight leg, metres.
+
+    Examples
+    --------
+    >>> [round(soft_reach(target, 0.9, 1.0), 4) for target in (0.95, 0.98, 1.0, 1.2)]
+    [0.95, 0.9785, 0.9887, 0.999]
+    """
+    start = max(SOFT * length, unchanged)
+    room = STRAIGHT * length - start
+    if target <= start:
+        return target
+    return start + room * -math.expm1((start - target) / room) if room > 0 else start
+
+
+def knee_axis(motion: Motion, leg: Leg) -> Vector:
+    """Find the axis of a knee in its joint's frame; a positive rotation about it flexes the knee.
+
+    It is the hinge of the clip. A knee that is no hinge in its file has the mean of shank × thigh, which is
+    perpendicular to both and weighs a frame by the sine of its flexion.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import sample
+    >>> [round(number, 3) for number in knee_axis(sample("walk_straight"), Leg(2, 3, 4, 5))]
+    [1.0, 0.0, 0.0]
+    """
+    clip = motion[:CLIP_FRAMES]
+    positions, matrices = forward_kinematics(clip)
+    shank = positions[:, leg.ankle] - positions[:, leg.knee]
+    thigh = positions[:, leg.hip] - positions[:, leg.knee]
+    normals = np.einsum("fba,fb->fa", matrices[:, leg.knee], np.cross(shank, thigh))
+    mean: Array = normals.mean(axis=0)
+    hinge = hinge_of(clip, leg.knee)
+    axis = mean if hinge is None else hinge * np.sign(hinge @ mean)
+    x, y, z = (axis / np.linalg.norm(axis)).tolist()
+    return x, y, z
+
+
+class PlacedLeg(NamedTuple):
+    """The global positions and rotations of the joints from the root to a ball, by the joint's index."""
+
+    positions: dict[int, Vector]
+    rotations: dict[int, Quaternion]
+
+
+class JointedLeg:
+    """A leg of a skeleton, with the axis of its knee, that can be placed and bent in one frame.
+
+    Parameters
+    ----------
+    skeleton : J joints.
+    leg : of this skeleton.
+    axis : the knee's, as from `knee_axis`.
+
+    Examples
+    --------
+    The left ankle of the rest pose is moved ahead by 5 cm, for which the hip and the knee bend:
+
+    >>> from mocap.datasets.samples import SKELETON
+    >>> leg = JointedLeg(SKELETON, Leg(2, 3, 4, 5), (1.0, 0.0, 0.0))
+    >>> rest = np.tile([1.0, 0, 0, 0], (38, 1))
+    >>> placed = leg.place(np.array([0.0, 1, 0]), rest)
+    >>> for joint, rotation in leg.bend(placed, (0.0, 0.02, 0.05), 0.0).items():
+    ...     rest[joint] = rotation
+    >>> moved = leg.place(np.array([0.0, 1, 0]), rest)
+    >>> np.subtract(moved.positions[4], placed.positions[4]).round(6) + 0.0
+    array([0.  , 0.02, 0.05])
+    """
+
+    def __init__(self, skeleton: Skeleton, leg: Leg, axis: Vector) -> None:
+        self.leg = leg
+        self.axis = axis
+        self.length = float(leg.lengths(skeleton)[:2].sum())
+        self.path = skeleton.path_to_root(leg.ball)[::-1]
+        self.parents = {joint: int(skeleton.parents[joint]) for joint in self.path[1:]}
+        self.offsets = {joint: _vector(skeleton.offsets[joint]) for joint in self.path[1:]}
+
+    def place(self, root: Array, rotations: Array) -> PlacedLeg:
+        """Compute the joints' positions and rotations, from the root's position (3,) and rotations (J, 4)."""
+        local = rotations[self.path].tolist()
+        positions = {0: _vector(root)}
+        placed: dict[int, Quaternion] = {0: tuple(local[0])}
+        for joint, rotation in zip(self.path[1:], local[1:], strict=True):
+            parent = self.parents[joint]
+            positions[joint] = add(positions[parent], rotate(placed[parent], self.offsets[joint]))
+            placed[joint] = multiply(placed[parent], rotation)
+        return PlacedLeg(positions, placed)
+
+    def forward(self, placed: PlacedLeg) -> Vector:
+        """Return the direction in which the knee points: perpendicular to its axis and the vertical."""
+        return cross(rotate(placed.rotations[self.leg.knee], self.axis), UP)
+
+    def bend(self, placed: PlacedLeg, offset: Vector, yaw: float) -> dict[int, Quaternion]:
+        """Move the ankle by an offset, and turn knee and foot by a yaw; return the new local rotations.
+
+        The knee flexes by F about its axis to the distance of the target. The leg turns by the yaw Y about
+        the vertical, as a hip does above a foot that stands, and swings by the shortest arc S to its target.
+        With the global rotations G of joints and their parents P, the local rotations are
+        P⁻¹ S Y G of the hip, P⁻¹ F G of the knee, and (S Y F P)⁻¹ Y G of the ankle.
+
+        Parameters
+        ----------
+        placed : the leg as it is.
+        offset : metres. A target that is too far is approached, see `soft_reach`.
+        yaw : radians about the vertical.
+        """
+        hip, knee, ankle, _ = self.leg
+        positions, rotations = placed
+        thigh = subtract(positions[hip], positions[knee])
+        shank = subtract(positions[ankle], positions[knee])
+        target = add(subtract(shank, thigh), offset)  # from the hip
+        distance = soft_reach(length(target), length(subtract(shank, thigh)), self.length)
+        axis = rotate(rotations[knee], self.axis)
+        flexion = axis_rotation(axis, hinge_angle(axis, thigh, shank, distance))
+        turn = axis_rotation(UP, yaw)
+        turned = rotate(turn, subtract(rotate(flexion, shank), thigh))
+        leg_rotation = multiply(shortest_arc(turned, target), turn)
+        foot = multiply(turn, rotations[ankle])
+        above_hip, above_knee, above_ankle = (rotations[self.parents[joint]] for joint in (hip, knee, ankle))
+        new_thigh = multiply(leg_rotation, rotations[hip])
+        new_shank = multiply(flexion, rotations[knee])
+        new_above_ankle = multiply(leg_rotation, multiply(flexion, above_ankle))
+        return {
+            hip: multiply(conjugate(above_hip), new_thigh),
+            knee: multiply(conjugate(above_knee), new_shank),
+            ankle: multiply(conjugate(new_above_ankle), foot),
+        }
+
+
+def length(vector: Vector) -> float:
+    """Return the length of a vector.
+
+    Examples
+    --------
+    >>> length((3.0, 0.0, 4.0))
+    5.0
+    """
+    return math.sqrt(dot(vector, vector))
+
+
+def _vector(values: Array) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z
