@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from mocap.course import checks
-from mocap.course.check import Check, Verdict, close, close_angles, close_rotations
+from mocap.course.check import Check, close, close_angles, close_rotations
+from tests.course.told import frozen, told
 
 ALL = checks.all_checks()
 FOLDER = Path(checks.__file__).parent
@@ -33,9 +34,10 @@ def test_no_two_tables_ask_for_the_same_and_no_file_hides_a_check():
 @pytest.mark.parametrize("name", ALL)
 def test_the_right_answer_passes_and_each_mistake_gets_its_own_hint(name):
     check = ALL[name]
-    assert check.verdict(check.truth).right
-    for answer, hint in check.mistakes:
-        assert check.verdict(answer) == Verdict(False, f"{name}: {hint}")
+    said = told(check)
+    assert said == frozen()[name]
+    assert said[0] == f"✓ {name}: right on {check.trials} random inputs."
+    assert said[1:] == [f"✗ {name}: {hint}" for _, hint in check.mistakes]
     assert len({hint for _, hint in check.mistakes}) >= 3
     assert re.match(r"[a-z].*[^.]$", check.asks)
 
