@@ -23,7 +23,7 @@ PACKAGE = ROOT / "mocap"
 ROOMS = sorted(path.parent.name for path in PACKAGE.glob("*/__init__.py"))
 STOREYS = ("course", "methods")  # rooms in them are rooms too
 ROOMS += sorted(f"{s}/{path.parent.name}" for s in STOREYS for path in PACKAGE.glob(f"{s}/*/__init__.py"))
-ROOMS.remove("course/checks")  # a table a notebook, found by itself
+ROOMS.remove("course/checks")  # modules of answers, found by themselves
 LISTED = dict(re.findall(r"^([a-z_]+)  +\w.*?(?:\(([\d, to]+)\))?$", mocap.__doc__, re.MULTILINE))
 FACES = [room for room in ROOMS if room not in ("_shared", "cli", "methods")]
 

@@ -2,14 +2,14 @@
 
 Teachers hand the notebooks out and publish them; `marking` marks them. Authors run them again, with the
 package's own code in their cells. The command `mocap course` does all of this. A new exercise is four
-cells of a notebook, with the tags that `notebooks` lists, and a table in the notebook's file of `checks`:
-what it asks for, the right answer, and the hints for typical mistakes.
+cells of a notebook, with the tags that `notebooks` lists, and in `checks` what it asks for, the right answer,
+and the typical mistakes with their hints.
 
 Reading order
 -------------
 1. `guarded_calls`: calls of a student's function that cannot stop or freeze the notebook
 2. `check`: how an exercise is checked
-3. `checks`: the exercises, a table for each notebook
+3. `checks`: the exercises: words and functions of each notebook
 4. `real_clips`: captured clips for notebooks that can do without, and the four collections of claims
 5. `seam_trials`: walks by a matrix, and blends of matches drawn at random, measured
 6. `marked_values`: numbers in prose, and the expressions that compute them

@@ -1,28 +1,36 @@
 """How exercises check themselves: random input, one oracle, and hints for known mistakes.
 
-A check holds a right function and typical wrong ones. It calls a student's function on random input and
+A check has a right function and typical wrong ones. It calls a student's function on random input and
 compares the results. If they agree with those of a wrong function, it prints the hint for that mistake. It
-never raises an error and never shows a solution. The checks are in `course.checks`, a file per notebook.
+never raises an error and never shows a solution. The checks are in `course.checks`.
 """
 
 from __future__ import annotations
 
+import ast
 import copy
 import inspect
 import io
 import re
+import textwrap
 import traceback
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import redirect_stderr
+from functools import cached_property
+from types import FunctionType
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from mocap._shared import records
 from mocap._shared.limits import Overdue, time_limit
+from mocap.errors import MocapError
 
-Answer = Callable[..., Any]
-Table = Mapping[str, Any]
-Trial = tuple[tuple[Any, ...], Any, Any]  # the arguments of a call, the right result, and the student's
+Function = Callable[..., Any]
+Trial = tuple[tuple[Any, ...], Any, Any]
+"""The arguments of a call, the right result, and the student's."""
+
+LONGEST_VALUE = 60  # characters of a wrong value that is shown
 
 
 class Verdict(NamedTuple):
@@ -41,36 +49,86 @@ class Verdict(NamedTuple):
         return f"{'✓' if self.right else '✗'} {self.message}"
 
 
-def close(given: Any, wanted: Any) -> bool:  # noqa: ANN401
-    """Check whether two answers are the same: numbers to 8 digits, all else exactly, item by item."""
+class AnswersWithheld(MocapError):
+    """The right answer to an exercise is not in this process, because its function is marked elsewhere."""
+
+
+def close(answer: Any, wanted: Any) -> bool:  # noqa: ANN401
+    """Check whether two answers are the same: numbers to 8 digits, all else exactly, item by item.
+
+    Examples
+    --------
+    >>> close([1, 2.0], np.array([1.0, 2.0])), close({(0, 1)}, {(1, 0)})
+    (True, False)
+    """
     if isinstance(wanted, set | frozenset):  # students list its items in any type
-        return {tuple(item) if np.ndim(item) else item for item in given} == wanted
+        return {tuple(item) if np.ndim(item) else item for item in answer} == wanted
     if isinstance(wanted, dict | str) or wanted is None:
-        return bool(given == wanted)
+        return bool(answer == wanted)
     try:
         kind = complex if np.iscomplexobj(wanted) else float
-        a, b = np.asarray(given, kind), np.asarray(wanted, kind)
+        a = np.asarray(answer, kind)
+        b = np.asarray(wanted, kind)
     except (TypeError, ValueError):
-        return len(given) == len(wanted) and all(map(close, given, wanted))
+        return len(answer) == len(wanted) and all(map(close, answer, wanted))
     return a.shape == b.shape and np.allclose(a, b, rtol=1e-8, atol=1e-9, equal_nan=True)
 
 
-def close_angles(given: Any, wanted: Any) -> bool:  # noqa: ANN401
+def close_angles(answer: Any, wanted: Any) -> bool:  # noqa: ANN401
     """Check whether angles in radians are the same up to whole turns."""
-    a, b = np.asarray(given, float), np.asarray(wanted, float)
+    a = np.asarray(answer, float)
+    b = np.asarray(wanted, float)
     return close(np.cos(a), np.cos(b)) and close(np.sin(a), np.sin(b))
 
 
-def close_rotations(given: Any, wanted: Any) -> bool:  # noqa: ANN401
+def close_rotations(answer: Any, wanted: Any) -> bool:  # noqa: ANN401
     """Check whether quaternions are the same rotations: q and -q are."""
-    a, b = np.asarray(given, float), np.asarray(wanted, float)
-    signs = np.where(np.sum(a * b, axis=-1, keepdims=True) < 0, -1, 1) if a.shape == b.shape else 1
-    return close(a * signs, b)
+    a = np.asarray(answer, float)
+    b = np.asarray(wanted, float)
+    if a.shape != b.shape:
+        return False
+    return close(a * np.where(np.sum(a * b, axis=-1, keepdims=True) < 0, -1, 1), b)
 
 
 def altered(old: Any, new: Any) -> bool:  # noqa: ANN401
     """Check whether an argument is an array that a function has changed."""
     return isinstance(old, np.ndarray) and not np.array_equal(new, old, equal_nan=True)
+
+
+class Texts(records.NamedTuple):
+    """The words of an exercise, which can be translated.
+
+    Attributes
+    ----------
+    asks : what the function must return, as the end of a sentence.
+    start : the hint for a student who has not begun.
+    mistakes : the hint for each known mistake, by its name; if several fit, the first one counts.
+    minutes : time that the exercise takes.
+    trials : number of inputs that are tried.
+    """
+
+    asks: str
+    start: str
+    mistakes: Mapping[str, str]
+    minutes: int = 8
+    trials: int = 40
+
+
+class Answers(records.NamedTuple):
+    """The functions of an exercise.
+
+    Attributes
+    ----------
+    draw : from a random generator to the arguments of one call.
+    right : from these arguments to the right answer.
+    mistakes : known wrong answers, by their names.
+    is_same : compares an answer with the right one.
+    """
+
+    draw: Function
+    right: Function
+    mistakes: Mapping[str, Function]
+    is_same: Callable[[Any, Any], bool] = close
 
 
 class Check:
@@ -79,32 +137,25 @@ class Check:
     Parameters
     ----------
     name : the function's name in the notebook.
-    table : from a file such as `checks/06-pruning.toml`: `asks`, what the function must return, as the end of
-        a sentence; `start`, the hint for a student who has not begun; `takes`, the names of the
-        arguments; `draw`, lines of Python that draw the arguments of one call by `rng`, and list them in the
-        last line; `right`, lines that end in the right answer; and `wrong`, the hint for each of several: if
-        several fit, the first one counts. There `right` stands for the right answer, `right(...)` for that to
-        other arguments, and `A → B; C → D` for the answer that has B instead of A, and D instead of C, in its
-        lines and in those of the function that it calls first. Some tables have `same`, a function that
-        compares two answers, a number of `trials`, and the `minutes` that it takes, 8 if not said.
-    known : what the expressions may use.
+    texts : its words.
+    load : returns its functions; called when the first of them is needed.
     notebook : the number of the notebook that asks for it, such as 04b.
 
     Attributes
     ----------
-    draw : takes a random generator, returns the arguments of one call.
-    truth : the oracle: takes these arguments, returns the right answer.
-    mistakes : known wrong answers, as functions, with their hints.
-    oracles : the names of the package's functions that the right answer calls.
+    truth : the oracle: takes the arguments of a call, returns the right answer.
+    trials : number of inputs that are tried.
     seconds : the time limit of all calls; right functions take a hundredth of it.
 
     Examples
     --------
-    >>> double = Check("double", {
-    ...     "asks": "twice the number", "start": "What is 2 times x?", "takes": "x",
-    ...     "draw": "(rng.normal(),)", "right": "2 * x",
-    ...     "wrong": {"x * x": "That is the square.", "right + 1": "One too many."},
-    ... }, {})
+    >>> answers = Answers(
+    ...     draw=lambda rng: (rng.normal(),),
+    ...     right=lambda x: 2 * x,
+    ...     mistakes={"square": lambda x: x * x, "added": lambda x: 2 * x + 1},
+    ... )
+    >>> hints = {"square": "That is the square.", "added": "One too many."}
+    >>> double = Check("double", Texts("twice the number", "What is 2 times x?", hints), lambda: answers)
     >>> double(lambda x: ...)
     ✗ double: not there yet. It must return twice the number. Hint: What is 2 times x?
     >>> double(lambda x: x**2)
@@ -115,124 +166,157 @@ class Check:
 
     seconds = 30.0
 
-    def __init__(self, name: str, table: Table, known: Mapping[str, Any], notebook: str = "") -> None:
-        self.name, self.notebook = name, notebook
-        self.asks, self.start, self.trials = table["asks"], table["start"], table.get("trials", 40)
-        self.minutes = table.get("minutes", 8)
-        self._table, self._known = table, {**globals(), **known}
-        self.same = eval(table.get("same", "close"), self._known)
-        called = re.findall(r"(?<![\w.)])[A-Za-z_][\w.]*(?=\()", table["right"].splitlines()[-1])
-        called = [word for word in called if word.partition(".")[0] in self._known]
-        named = {word.split(".")[-1]: getattr(eval(word, self._known), "__module__", "") for word in called}
-        self.oracles = [name for name, room in named.items() if re.match(r"mocap\.(?!course\.)", room or "")]
-        self.draw = _function_of(table["draw"], "rng", dict(self._known))
-        self.truth = self._function("right", table["takes"])
-        wrong = table["wrong"].items()
-        self.mistakes: list[tuple[Answer, str]] = [
-            (self._function(one, table["takes"]), hint) for one, hint in wrong
-        ]
+    def __init__(self, name: str, texts: Texts, load: Callable[[], Answers], notebook: str = "") -> None:
+        self.name = name
+        self.notebook = notebook
+        self.texts = texts
+        self.asks = texts.asks
+        self.start = texts.start
+        self.minutes = texts.minutes
+        self.trials = texts.trials
+        self.truth: Function = self._right  # the same object at each look
+        self._load = load
 
-    def _function(self, expression: str, takes: str) -> Answer:
-        """Make a function of the right answer, or of a wrong one."""
-        names, right = dict(self._known), self._table["right"]
-        if "→" in expression:
-            called, source = names.get(right.partition("(")[0]), ""
-            if inspect.isfunction(called):
-                names, source = called.__globals__ | names, inspect.getsource(called)
-            for change in expression.split("; "):
-                old, new = change.split(" → ")
-                source, right = source.replace(old, new), right.replace(old, new)
-            exec(source, names)
-            expression = "right"
-        names["right"] = _function_of(right, takes, names)
-        return _function_of(re.sub(r"\bright\b(?!\()", f"right({takes})", expression), takes, names)
+    @cached_property
+    def answers(self) -> Answers:
+        """The functions of the exercise.
 
-    def __call__(self, answer: Answer) -> None:
+        Raises
+        ------
+        AnswersWithheld : in the process of a student whose notebook is marked.
+        """
+        return self._load()
+
+    def _right(self, *arguments: Any) -> Any:  # noqa: ANN401
+        return self.answers.right(*arguments)
+
+    def draw(self, rng: np.random.Generator) -> tuple[Any, ...]:
+        """Draw the arguments of one call."""
+        arguments: tuple[Any, ...] = self.answers.draw(rng)
+        return arguments
+
+    @property
+    def mistakes(self) -> list[tuple[Function, str]]:
+        """Known wrong answers, each with its hint."""
+        return [(self.answers.mistakes[name], hint) for name, hint in self.texts.mistakes.items()]
+
+    @property
+    def oracles(self) -> list[str]:
+        """The names of the package's functions that give the right answer."""
+        return list(dict.fromkeys(_package_calls(self.answers.right)))
+
+    def __call__(self, function: Function) -> None:
         """Print the verdict on a student's function."""
-        print(self.verdict(answer))
+        print(self.verdict(function))
 
-    def require(self, answer: Answer) -> None:
+    def require(self, function: Function) -> None:
         """Raise an AssertionError that says what is wrong, for nbgrader, which takes warnings for errors."""
         with redirect_stderr(io.StringIO()):
-            verdict = self.verdict(answer)
+            verdict = self.verdict(function)
         assert verdict.right, verdict
 
-    def verdict(self, answer: Answer) -> Verdict:
-        """Try a function on random input, and say what is wrong with it, if anything is.
+    def verdict(self, function: Function, seed: int = 0) -> Verdict:
+        """Try a function on random input, and report what is wrong with it, if anything is.
 
-        Of a place that a student's function was put into, it judges what the student has written.
+        Parameters
+        ----------
+        function : the student's, or a place of `lab.mine`, of which it judges what the student has written.
+        seed : of the random input.
         """
-        answer, tried = written(answer), list[Trial]()
+        function = written(function)
+        trials: list[Trial] = []
         try:
             with time_limit(self.seconds):
-                wrong = self._try(answer, tried)
+                wrong = self._try(function, trials, seed)
+        except AnswersWithheld as error:
+            return Verdict(False, str(error))
         except Overdue:
-            begun = f"{len(tried)} of {self.trials} inputs were done"
+            begun = f"{len(trials)} of {self.trials} inputs were done"
             wrong = f"stopped after {self.seconds:g} s, when {begun}. Does a loop never end?"
         except NotImplementedError:
             wrong = f"not there yet. It must return {self.asks}. Hint: {self.start}"
         except (Exception, SystemExit) as error:  # it may raise anything, and the page shows it
-            what = " ".join(filter(None, (type(error).__name__, place_of(error, answer))))
-            wrong = f"your function raises {what}: {error}"
-        failed = [(wanted, given) for _, wanted, given in tried if not self._same(given, wanted)]
-        if not wrong and failed:
-            fits = (
-                hint
-                for mistake, hint in self.mistakes
-                if all(self._same(given, mistake(*copy.deepcopy(one))) for one, _, given in tried)
-            )
-            wrong = next(fits, "") or self._first_wrong(*failed[0])
+            kind = " ".join(filter(None, (type(error).__name__, place_of(error, function))))
+            wrong = f"your function raises {kind}: {error}"
+        wrong = wrong or self._wrong(trials)
         return Verdict(not wrong, f"{self.name}: {wrong or f'right on {self.trials} random inputs.'}")
 
-    def _try(self, answer: Answer, tried: list[Trial]) -> str:
+    def _try(self, function: Function, trials: list[Trial], seed: int) -> str:
         """Call a function on random inputs, until it changes one; say so if it did."""
-        rng = np.random.default_rng(0)
+        rng = np.random.default_rng(seed)
         for _ in range(self.trials):
             arguments = self.draw(rng)
             used = copy.deepcopy(arguments)
-            tried.append((arguments, self.truth(*copy.deepcopy(arguments)), answer(*used)))
-            if tried[-1][-1] is ...:
+            wanted = self.truth(*copy.deepcopy(arguments))
+            answer = function(*used)
+            trials.append((arguments, wanted, answer))
+            if answer is ...:
                 raise NotImplementedError
             if any(map(altered, arguments, used)):
                 return "your function changes its arguments; work on a copy."
         return ""
 
-    def _same(self, given: Any, wanted: Any) -> bool:  # noqa: ANN401
+    def _wrong(self, trials: list[Trial]) -> str:
+        """Describe what is wrong with the answers: the mistake that they fit, or else the first of them."""
+        failed = [(wanted, answer) for _, wanted, answer in trials if not self._is_same(answer, wanted)]
+        if not failed:
+            return ""
+        for mistake, hint in self.mistakes:
+            if all(self._is_same(answer, mistake(*copy.deepcopy(used))) for used, _, answer in trials):
+                return hint
+        return self._first_wrong(*failed[0])
+
+    def _is_same(self, answer: Any, wanted: Any) -> bool:  # noqa: ANN401
         try:
-            return bool(self.same(given, wanted))
+            return bool(self.answers.is_same(answer, wanted))
         except Exception:  # the answer has a type that cannot be compared
             return False
 
-    def _first_wrong(self, wanted: Any, given: Any) -> str:  # noqa: ANN401
-        if given is None:
+    def _first_wrong(self, wanted: Any, answer: Any) -> str:  # noqa: ANN401
+        if answer is None:
             return "your function returns None; does it end in `return`?"
         if isinstance(wanted, set | frozenset):  # students list its items in any type
             return f"some are missing or wrong. It must return {self.asks}. Hint: {self.start}"
-        here, there = np.shape(as_numbers(given)), np.shape(as_numbers(wanted))
-        if here != there:
-            return f"your answer has the shape {here}; it should be {there}."
-        if there == () and not isinstance(wanted, str):
-            numbers = f"you return {_short(given)} where it should be {_short(wanted)}"
+        shape = np.shape(as_numbers(answer))
+        wanted_shape = np.shape(as_numbers(wanted))
+        if shape != wanted_shape:
+            return f"your answer has the shape {shape}; it should be {wanted_shape}."
+        if wanted_shape == () and not isinstance(wanted, str):
+            numbers = f"you return {_short(answer)} where it should be {_short(wanted)}"
             return f"{numbers}. It must return {self.asks}."
         return f"the shape is right, the values are wrong. It must return {self.asks}. Hint: {self.start}"
 
 
-def _function_of(lines: str, takes: str, names: dict[str, Any]) -> Answer:
-    """Make a function of lines of Python, the last of which is what it returns."""
-    *before, last = lines.splitlines()
-    exec("\n ".join([f"def made({takes}):", *before, f"return ({last})"]), names)
-    made: Answer = names["made"]
-    return made
+def _package_calls(function: Function) -> Iterator[str]:
+    """Yield the names of the package's functions that a function calls where it returns."""
+    if not isinstance(function, FunctionType):
+        return
+    tree = ast.parse(textwrap.dedent(inspect.getsource(function)))
+    for returned in (node for node in ast.walk(tree) if isinstance(node, ast.Return)):
+        for call in (node for node in ast.walk(returned) if isinstance(node, ast.Call)):
+            name = ast.unparse(call.func)
+            root, *parts = name.split(".")
+            value = function.__globals__.get(root)
+            for part in parts:
+                value = getattr(value, part, None)
+            if re.match(r"mocap\.(?!course\.)", getattr(value, "__module__", None) or ""):
+                yield name.rpartition(".")[2]
 
 
-def written(place: Any) -> Answer:  # noqa: ANN401
-    """Give the function that a student wrote, also of a place of `lab.mine`; where none is, one to write."""
-    own: Answer = getattr(place, "written", place)
-    return (lambda *_: ...) if own is getattr(place, "stand_in", None) else own
+def written(place: Any) -> Function:  # noqa: ANN401
+    """Return the function that a student wrote, also of a place of `lab.mine`; one to write if there is none.
+
+    Examples
+    --------
+    >>> written(len)
+    <built-in function len>
+    """
+    function: Function = getattr(place, "written", place)
+    return (lambda *_: ...) if function is getattr(place, "stand_in", None) else function
 
 
 def as_numbers(value: Any) -> Any:  # noqa: ANN401
-    """Give a value as an array of numbers; None where it is something else."""
+    """Return a value as an array of numbers; None if it is something else."""
     try:
         return np.asarray(value, complex)
     except (TypeError, ValueError):
@@ -240,11 +324,12 @@ def as_numbers(value: Any) -> Any:  # noqa: ANN401
 
 
 def _short(value: Any) -> str:  # noqa: ANN401
-    return f"{value:.4g}" if isinstance(value, (float, np.floating)) else repr(value)[:60]
+    return f"{value:.4g}" if isinstance(value, (float, np.floating)) else repr(value)[:LONGEST_VALUE]
 
 
-def place_of(error: BaseException, answer: Answer) -> str:
+def place_of(error: BaseException, function: Function) -> str:
     """Quote the line of a function in which an error arose."""
-    here = inspect.getsourcefile(answer) if inspect.isfunction(answer) else None
-    lines = [f for f in traceback.extract_tb(error.__traceback__) if f.filename == here and f.name != "_try"]
-    return f"in `{lines[-1].line}`" if lines and lines[-1].line else ""
+    file = inspect.getsourcefile(function) if inspect.isfunction(function) else None
+    frames = traceback.extract_tb(error.__traceback__)
+    lines = [frame.line for frame in frames if frame.filename == file and frame.name != "_try"]
+    return f"in `{lines[-1]}`" if lines and lines[-1] else ""

@@ -4,38 +4,48 @@ import ast
 import re
 import tomllib
 from copy import copy
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from mocap.course import checks
-from mocap.course.check import Check, Verdict, close, close_angles, close_rotations
+from mocap.course.check import Answers, Check, Texts, close, close_angles, close_rotations
+from tests.course.told import frozen, told
 
 ALL = checks.all_checks()
-FOLDER = Path(checks.__file__).parent
+HINTS = checks.FOLDER / "hints"
 
 
-def test_no_two_tables_ask_for_the_same_and_no_file_hides_a_check():
-    tables = sorted(FOLDER.glob("*.toml"))
-    assert sum(len(tomllib.loads(file.read_text("utf-8"))) for file in tables) == len(ALL)
-    assert {file.stem for file in FOLDER.glob("*.py")} == {"__init__", "shared"}
-    assert "shared" not in ALL
+def test_every_function_of_a_notebook_belongs_to_one_exercise_and_every_hint_has_its_mistake():
+    modules = {f"nb{file.stem.replace('-', '_')}": file for file in HINTS.glob("*.toml")}
+    assert {file.stem for file in checks.ANSWERS.glob("nb*.py")} == {*modules}
+    for module, file in modules.items():
+        exercises = tomllib.loads(file.read_text("utf-8"))
+        wanted = {f"{kind}_{name}" for name in exercises for kind in ("draw", "right")}
+        mistakes = [f"mistake_{key}" for table in exercises.values() for key in table["mistakes"]]
+        assert len(mistakes) == len({*mistakes})
+        tree = ast.parse((checks.ANSWERS / f"{module}.py").read_text("utf-8"))
+        defined = [node.name for node in tree.body if isinstance(node, ast.FunctionDef)]
+        kinds = ("draw_", "right_", "mistake_")
+        assert {name for name in defined if name.startswith(kinds)} == wanted | {*mistakes}
+        assert {name.removeprefix("same_") for name in defined if name.startswith("same_")} <= {*exercises}
     assert all(getattr(checks, name) is check for name, check in ALL.items())
-    defined = [
-        node.name
-        for node in ast.parse((FOLDER / "shared.py").read_text("utf-8")).body
-        if isinstance(node, ast.FunctionDef | ast.ClassDef)
-    ]
-    assert len(defined) == len({*defined})  # tables use them by their names alone
+    assert len(ALL) == sum(len(tomllib.loads(file.read_text("utf-8"))) for file in modules.values())
+
+
+def test_a_package_function_that_a_right_answer_calls_is_its_oracle():
+    assert ALL["hamilton"].oracles == ["multiply"]
+    assert ALL["inner_minima"].oracles == ["local_minima"]
+    assert ALL["speed"].oracles == ALL["climb"].oracles == []
 
 
 @pytest.mark.parametrize("name", ALL)
 def test_the_right_answer_passes_and_each_mistake_gets_its_own_hint(name):
     check = ALL[name]
-    assert check.verdict(check.truth).right
-    for answer, hint in check.mistakes:
-        assert check.verdict(answer) == Verdict(False, f"{name}: {hint}")
+    said = told(check)
+    assert said == frozen()[name]
+    assert said[0] == f"✓ {name}: right on {check.trials} random inputs."
+    assert said[1:] == [f"✗ {name}: {hint}" for _, hint in check.mistakes]
     assert len({hint for _, hint in check.mistakes}) >= 3
     assert re.match(r"[a-z].*[^.]$", check.asks)
 
@@ -45,23 +55,22 @@ def test_an_unknown_check_names_those_there_are():
         checks.spede  # noqa: B018
 
 
-def doubled(x):
-    return 2 * x
-
-
-TABLE = {
-    "asks": "twice the numbers",
-    "start": "What is 2 x?",
-    "takes": "x",
-    "draw": "(rng.normal(size=3),)",
-    "right": "doubled(x)",
-    "wrong": {
-        "x * x": "That is the square.",
-        "right + 1": "One too many.",
-        "2 → -2; * x → * abs(x)": "That is never above 0.",
+ANSWERS = Answers(
+    draw=lambda rng: (rng.normal(size=3),),
+    right=lambda x: 2 * x,
+    mistakes={
+        "square": lambda x: x * x,
+        "added": lambda x: 2 * x + 1,
+        "never_positive": lambda x: -2 * np.abs(x),
     },
+)
+HINTS_OF_DOUBLE = {
+    "square": "That is the square.",
+    "added": "One too many.",
+    "never_positive": "That is never above 0.",
 }
-DOUBLE = Check("double", TABLE, {"doubled": doubled}, "00")
+TEXTS = Texts("twice the numbers", "What is 2 x?", HINTS_OF_DOUBLE)
+DOUBLE = Check("double", TEXTS, lambda: ANSWERS, "00")
 
 
 def in_place(x):
@@ -120,8 +129,8 @@ def test_items_in_another_form_are_not_judged_by_their_shape():
 
 
 def test_a_wrong_number_is_told_beside_the_right_one():
-    table = {"asks": "x", "start": "", "takes": "x", "draw": "(2.0,)", "right": "x", "wrong": {}, "trials": 1}
-    check = Check("f", table, {})
+    answers = Answers(draw=lambda rng: (2.0,), right=lambda x: x, mistakes={})
+    check = Check("f", Texts("x", "", {}, trials=1), lambda: answers)
     assert "you return 3 where it should be 2." in check.verdict(lambda x: 3.0).message
 
 

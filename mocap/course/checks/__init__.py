@@ -1,8 +1,12 @@
 """The checks of the course's exercises, by the names of the functions that they ask for.
 
-A notebook has a table here, such as `06-pruning.toml`: what each of its exercises asks for, with which input
-it is tried, the right answer, and the mistakes that students make, each with its hint. Beside them, `shared`
-has what tables use by name.
+A notebook has two files here. `hints/06-pruning.toml` contains the words: what each exercise asks for, and
+the hint for each typical mistake. A copy of that folder in another language translates them.
+`answers/nb06_pruning.py` contains the functions: inputs, right answers and mistakes. `inputs` has the
+functions that students get as arguments.
+
+The answers are imported when a function is checked. In the process of a student whose notebook is marked they
+never are, because their folder cannot be read there, and the checks say so.
 
 >>> from mocap.course import checks
 >>> checks.speed(lambda positions, fps: ...)
@@ -10,23 +14,58 @@ has what tables use by name.
 """
 
 import tomllib
+from collections.abc import Mapping
 from difflib import get_close_matches
-from functools import cache
+from functools import cache, partial
+from importlib import import_module
 from pathlib import Path
-from typing import Any
 
-from mocap.course.check import Check
-from mocap.course.checks import shared
+from mocap.course.check import Answers, AnswersWithheld, Check, Function, Texts, close
+
+FOLDER = Path(__file__).parent
+ANSWERS = FOLDER / "answers"
+_withheld = [False]
 
 
 @cache
 def all_checks() -> dict[str, Check]:
     """Return every check by its name, notebook by notebook."""
-    found: dict[str, Check] = {}
-    for file in sorted(Path(__file__).parent.glob("*.toml")):
+    loaded: dict[str, Check] = {}
+    for file in sorted((FOLDER / "hints").glob("*.toml")):
+        notebook, _, _ = file.stem.partition("-")
         for name, table in tomllib.loads(file.read_text("utf-8")).items():
-            found[name] = Check(name, table, vars(shared), file.stem.partition("-")[0])
-    return found
+            texts = Texts(**table)
+            load = partial(_answers_of, file.stem, name, tuple(texts.mistakes))
+            loaded[name] = Check(name, texts, load, notebook)
+    return loaded
+
+
+def _answers_of(stem: str, name: str, mistakes: tuple[str, ...]) -> Answers:
+    """Import the answers to an exercise."""
+    if withheld():
+        raise AnswersWithheld(f"{name}: the right answer is with the marker, which checks yours.")
+    module = import_module(f"mocap.course.checks.answers.nb{stem.replace('-', '_')}")
+    functions: Mapping[str, Function] = vars(module)
+    draw = functions[f"draw_{name}"]
+    right = functions[f"right_{name}"]
+    is_same = functions.get(f"same_{name}", close)
+    return Answers(draw, right, {mistake: functions[f"mistake_{mistake}"] for mistake in mistakes}, is_same)
+
+
+def withhold() -> None:
+    """Answer no more checks in this process, as a notebook runs in it that somebody marks."""
+    _withheld[0] = True
+
+
+def withheld() -> bool:
+    """Return whether `withhold` has been called.
+
+    Examples
+    --------
+    >>> withheld()
+    False
+    """
+    return _withheld[0]
 
 
 def nearest(name: str) -> str:
@@ -37,12 +76,12 @@ def nearest(name: str) -> str:
     >>> nearest("sped"), nearest("<lambda>")
     ('write `speed`', 'write `def` and the name that the exercise gives')
     """
-    near = get_close_matches(name, all_checks(), 1)
-    return f"write `{near[0]}`" if near else "write `def` and the name that the exercise gives"
+    names = get_close_matches(name, all_checks(), 1)
+    return f"write `{names[0]}`" if names else "write `def` and the name that the exercise gives"
 
 
 def __getattr__(name: str) -> Check:
     if name not in all_checks():
-        known = ", ".join(all_checks())
-        raise AttributeError(f"the course has no check '{name}'; it has: {known}; {nearest(name)}")
+        names = ", ".join(all_checks())
+        raise AttributeError(f"the course has no check '{name}'; it has: {names}; {nearest(name)}")
     return all_checks()[name]

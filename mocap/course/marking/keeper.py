@@ -34,7 +34,7 @@ WATCHING = 0.1  # seconds between two looks at a student's processes
 KILLING = 20  # seconds after which processes that cannot be killed are left alone
 BLOCK = 512  # bytes, in which `os.stat` counts what a file takes
 COMMON = ("matplotlib.pyplot", "scipy.optimize", "networkx", "mocap.plotting", "mocap.widgets")
-OURS = ("marking.student", "checks", "diagrams", "lab.own")
+OURS = ("marking.student", "checks.inputs", "diagrams", "lab.own")
 
 
 def keep(control: socket.socket) -> None:

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import mocap
+from mocap.course.checks import ANSWERS
 from mocap.course.marking import walls
 
 REPLY = 1 << 20  # bytes of an answer, of which the course's have some thousands
@@ -44,7 +45,7 @@ class Sealed:
 
     Parameters
     ----------
-    hidden : files and folders that these processes must not read.
+    hidden : files and folders that these processes must not read, in addition to the answers of exercises.
 
     Attributes
     ----------
@@ -68,7 +69,7 @@ class Sealed:
 
     def __init__(self, hidden: Iterable[Path] = ()) -> None:
         walls.require_sealing()
-        self.hidden = [str(place.resolve()) for place in hidden]
+        self.hidden = [str(place.resolve()) for place in (ANSWERS, *hidden)]
         self.folder = Path(tempfile.mkdtemp(prefix="marking-")).resolve()
         self.running = False
         self._start()

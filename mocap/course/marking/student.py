@@ -15,6 +15,7 @@ from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
 from mocap.course.check import altered, place_of, written
+from mocap.course.checks import withhold
 from mocap.course.marking.cells import Cell, needed
 from mocap.course.marking.plain_data import pack
 
@@ -55,8 +56,8 @@ class Student:
 
     def _run(self, number: int) -> None:
         self.ran.add(number)
-        done = self.shell.run_cell(self.cells[number].source)  # type: ignore[no-untyped-call,unused-ignore]
-        if error := done.error_before_exec or done.error_in_exec:
+        result = self.shell.run_cell(self.cells[number].source)  # type: ignore[no-untyped-call,unused-ignore]
+        if error := result.error_before_exec or result.error_in_exec:
             self.failed[number] = f"{type(error).__name__}: {error}".removesuffix(": ")
 
     def call(self, name: str, arguments: tuple[Any, ...]) -> tuple[Any, list[Any], str, str]:
@@ -64,18 +65,19 @@ class Student:
         if name not in self.shell.user_ns:
             return None, [], "NameError", f"no cell defines `{name}`; write `def {name}`"
         function = written(self.shell.user_ns[name])
-        before = copy.deepcopy(arguments)
+        copies = copy.deepcopy(arguments)
         try:
-            given = pack(function(*arguments))
+            answer = pack(function(*arguments))
         except BaseException as error:  # a student's function may raise anything
-            at = place_of(error, function)
-            return None, [], type(error).__name__, f"{error} ({at})" if at else f"{error}"
-        pairs = enumerate(zip(before, arguments, strict=True))
-        return given, [[number, pack(new)] for number, (old, new) in pairs if altered(old, new)], "", ""
+            line = place_of(error, function)
+            return None, [], type(error).__name__, f"{error} ({line})" if line else f"{error}"
+        pairs = enumerate(zip(copies, arguments, strict=True))
+        return answer, [[number, pack(new)] for number, (old, new) in pairs if altered(old, new)], "", ""
 
 
 def serve(requests: BinaryIO, replies: BinaryIO) -> None:
     """Answer the marker until it closes its end."""
+    withhold()
     student = Student()
     while True:
         try:

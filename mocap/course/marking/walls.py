@@ -130,7 +130,7 @@ def fork_behind(walls: Sequence[str], home: Path, hidden: Sequence[str], work: C
             with suppress(OSError, ValueError):  # not every system has all of them
                 resource.setrlimit(getattr(resource, f"RLIMIT_{name}"), (limit, limit))
         if "landlock" in walls:
-            _lock(home, readable(hidden))
+            _lock(home, readable(hidden), listable(hidden))
         if "filter" in walls:
             _filter()
         work()
@@ -155,8 +155,14 @@ def _call(name: str, *arguments: int | bytes | None) -> int:
     return result
 
 
-def _lock(home: Path, places: Iterable[Path]) -> None:
+def _lock(home: Path, places: Iterable[Path], listed: Iterable[Path]) -> None:
     """Open only these places for reading, and the home for writing; call no server, signal nobody outside.
+
+    Parameters
+    ----------
+    home : the folder to write in.
+    places : files and folders to read.
+    listed : folders whose names may be listed, in which only some files may be read.
 
     Raises
     ------
@@ -173,7 +179,8 @@ def _lock(home: Path, places: Iterable[Path]) -> None:
         handled.append(SCOPES)
     attributes = struct.pack(f"{len(handled)}Q", *handled)
     rules = _call("syscall", RULESET, attributes, len(attributes), 0)
-    allowed = dict.fromkeys(places, READ) | dict.fromkeys(map(Path, DEVICES), USE)
+    allowed = dict.fromkeys(listed, READ_FOLDER) | dict.fromkeys(places, READ)
+    allowed |= dict.fromkeys(map(Path, DEVICES), USE)
     allowed[home] = rights & ~(MAKE_CHARACTER_DEVICE | MAKE_BLOCK_DEVICE)
     for place, right in allowed.items():
         with suppress(FileNotFoundError):
@@ -201,12 +208,28 @@ def readable(hidden: Sequence[str]) -> list[Path]:
     >>> Path("/dev") in readable([])
     False
     """
-    package = Path(mocap.__file__).parent
     kept_out = [Path(place).resolve() for place in hidden]
+    return [part for place in _needed() for part in _without(place, kept_out)]
+
+
+def listable(hidden: Sequence[str]) -> list[Path]:
+    """List the folders above hidden places, in which Python must find the modules beside them.
+
+    Examples
+    --------
+    >>> listable([])
+    []
+    """
+    above = {folder for place in hidden for folder in Path(place).resolve().parents}
+    return [folder for folder in sorted(above) if any(map(folder.is_relative_to, _needed()))]
+
+
+def _needed() -> set[Path]:
+    """Return the places that a student's process needs: Python, this package, programs and libraries."""
+    package = Path(mocap.__file__).parent
     path = [place for place in map(Path, sys.path) if place != package.parent or "-packages" in place.name]
     needed: list[str | Path] = [sys.prefix, sys.base_prefix, *path, package, *SYSTEM]
-    places = {Path(place).resolve() for place in needed}
-    return [part for place in places for part in _without(place, kept_out)]
+    return {Path(place).resolve() for place in needed}
 
 
 def _without(place: Path, hidden: Sequence[Path]) -> Iterable[Path]:

@@ -18,6 +18,7 @@ CHEAPEST = (
 )
 HONEST = [START, SPEED, CHEAPEST]
 STUDENTS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
+LOOKING = Path(__file__).with_name("looking_for_answers.py").read_text("utf-8")
 TELLING = "import os, signal, socket\ndone = []\n{}def speed(positions, fps): raise ValueError(done)"
 ATTEMPT = "try:\n  {0}\n  done.append({0!r})\nexcept OSError: pass\n"
 
@@ -31,6 +32,7 @@ def handed(name, words=()):
     """Give the cells of a student, with words, such as the path of a file, put into the sources."""
     one, cells = STUDENTS[name], []
     words = dict(words) | {"SLEEP": SLEEP, "START": START[1], "RIGHT": SPEED[1], "CHEAPEST": CHEAPEST[1]}
+    words["LOOKING"] = LOOKING
     attempts = "".join(map(ATTEMPT.format, one.get("attempts", ())))
     for tag, source in one.get("cells") or speed(one.get("speed") or TELLING.format(attempts)):
         for old, new in words.items():

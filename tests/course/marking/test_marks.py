@@ -15,7 +15,17 @@ import pytest
 
 import mocap
 from mocap.course.marking import mark, marks, walls
-from tests.course.marking.students import HONEST, SLEEP, SPEED, START, STUDENTS, hand_in, handed, speed
+from tests.course.marking.students import (
+    HONEST,
+    LOOKING,
+    SLEEP,
+    SPEED,
+    START,
+    STUDENTS,
+    hand_in,
+    handed,
+    speed,
+)
 from tests.refusals import refused
 
 SECRET = "correct horse battery staple"
@@ -174,6 +184,15 @@ def test_without_walls_the_keeper_is_replaced_and_a_changed_package_ends_the_mar
     right = ["".join(r["right"] for r in found if r["handed in"].startswith(name)) for name in students]
     assert right == ["11", "01", "01", "01", "00", ""]
     assert not LINUX or sleepers() == []
+
+
+def test_where_the_checks_run_the_same_search_finds_the_right_answer_everywhere(tmp_path):
+    """This is the control of the student who looks for right answers, and finds none."""
+    code = f"{LOOKING}\nprint(found)"
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=tmp_path
+    )
+    assert done.stdout == "['a file', 'an import', 'its check', 'memory']\n"
 
 
 def test_an_empty_folder_and_one_without_exercises(tmp_path):

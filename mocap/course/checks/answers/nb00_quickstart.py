@@ -1,0 +1,64 @@
+"""Notebook 00: inputs, right answers and mistakes of `speed` and `cheapest`."""
+
+import numpy as np
+
+from mocap._shared.arrays import Array, Indices
+from mocap.course.checks.answers.common import Arguments
+
+# ---- speed
+
+
+def draw_speed(rng: np.random.Generator) -> Arguments:
+    return rng.normal(size=(rng.integers(2, 30), 3)).cumsum(axis=0), float(rng.integers(24, 121))
+
+
+def right_speed(positions: Array, fps: float) -> Array:
+    return np.asarray(np.hypot(*np.diff(positions[:, [0, 2]], axis=0).T) * fps)
+
+
+def mistake_height_included(positions: Array, fps: float) -> object:
+    return np.linalg.norm(np.diff(positions, axis=0), axis=1) * fps
+
+
+def mistake_per_frame(positions: Array, fps: float) -> object:
+    return np.hypot(*np.diff(positions[:, [0, 2]], axis=0).T)
+
+
+def mistake_divided_by_fps(positions: Array, fps: float) -> object:
+    return np.hypot(*np.diff(positions[:, [0, 2]], axis=0).T) / fps
+
+
+def mistake_x_and_y(positions: Array, fps: float) -> object:
+    return np.hypot(*np.diff(positions[:, :2], axis=0).T) * fps
+
+
+# ---- cheapest
+
+
+def draw_cheapest(rng: np.random.Generator) -> Arguments:
+    grid = rng.uniform(size=rng.integers(5, 20, 2))
+    return grid, rng.permutation(np.argwhere(grid > 0.3))[: rng.integers(3, 12)]
+
+
+def right_cheapest(grid: Array, minima: Indices) -> Indices:
+    return np.asarray(minima[np.argmin(grid[tuple(minima.T)])])
+
+
+def mistake_of_whole_grid(grid: Array, minima: Indices) -> object:
+    return np.argwhere(grid == grid.min())[0]
+
+
+def mistake_index_in_list(grid: Array, minima: Indices) -> object:
+    return np.argmin(grid[tuple(minima.T)])
+
+
+def mistake_worst_minimum(grid: Array, minima: Indices) -> object:
+    return minima[np.argmax(grid[tuple(minima.T)])]
+
+
+def mistake_distance_itself(grid: Array, minima: Indices) -> object:
+    return grid[tuple(minima.T)].min()
+
+
+def mistake_column_first(grid: Array, minima: Indices) -> object:
+    return right_cheapest(grid, minima)[::-1]

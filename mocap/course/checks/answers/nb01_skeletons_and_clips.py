@@ -1,0 +1,112 @@
+"""Notebook 01: inputs, right answers and mistakes of `hamilton` and `climb`."""
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.body import rotations
+from mocap.body.skeleton import Skeleton
+from mocap.course.checks.answers.common import Arguments, normalised
+
+# ---- hamilton
+
+
+def draw_hamilton(rng: np.random.Generator) -> Arguments:
+    """Draw two rotations: mostly different ones, sometimes equal, nearly equal, opposite, or no turn."""
+    a, b = normalised(rng.normal(size=(2, 4)))
+    nearly_a = normalised(a + 1e-9 * b)
+    special = [a, nearly_a, -a, rotations.inverse(a), rotations.IDENTITY]
+    return a, np.array([*special, *[b] * 15][rng.integers(20)])
+
+
+def right_hamilton(a: Array, b: Array) -> Array:
+    return rotations.multiply(a, b)
+
+
+def mistake_reversed_order(a: Array, b: Array) -> object:
+    return rotations.multiply(b, a)
+
+
+def mistake_no_cross_product(a: Array, b: Array) -> object:
+    number, *_ = right_hamilton(a, b)
+    return np.append(number, a[0] * b[1:] + b[0] * a[1:])
+
+
+def mistake_dot_product_added(a: Array, b: Array) -> object:
+    return right_hamilton(a, b) + np.array([2 * (a[1:] @ b[1:]), 0, 0, 0])
+
+
+def mistake_negated(a: Array, b: Array) -> object:
+    return -right_hamilton(a, b)
+
+
+def mistake_number_by_number(a: Array, b: Array) -> object:
+    return a * b
+
+
+# ---- climb
+
+
+def draw_climb(rng: np.random.Generator) -> Arguments:
+    """Draw a tree of joints, how they are turned, and its last joint."""
+    count = int(rng.integers(4, 9))
+    parents = np.array([-1, 0, *(rng.integers(joint - 2, joint) for joint in range(2, count))])
+    skeleton = Skeleton([f"joint {n}" for n in range(count)], parents, rng.normal(size=(count, 3)))
+    turns = rng.normal(size=(count, 4))
+    return skeleton, turns / np.linalg.norm(turns, axis=1, keepdims=True), count - 1
+
+
+def right_climb(skeleton: Skeleton, turns: Array, joint: int) -> Array:
+    """Go from the joint to the root; each parent turns all that hangs below it."""
+    point = np.zeros(3)
+    matrices = rotations.to_matrix(turns)  # one by one takes ten times as long
+    while joint > 0:
+        offset = skeleton.offsets[joint]
+        parent = int(skeleton.parents[joint])
+        point = matrices[parent] @ (point + offset)
+        joint = parent
+    return point
+
+
+def mistake_turned_by_joint(skeleton: Skeleton, turns: Array, joint: int) -> object:
+    point = np.zeros(3)
+    matrices = rotations.to_matrix(turns)  # one by one takes ten times as long
+    while joint > 0:
+        offset = skeleton.offsets[joint]
+        parent = int(skeleton.parents[joint])
+        point = matrices[joint] @ (point + offset)
+        joint = parent
+    return point
+
+
+def mistake_root_not_turned(skeleton: Skeleton, turns: Array, joint: int) -> object:
+    return right_climb(skeleton, np.vstack([rotations.IDENTITY, turns[1:]]), joint)
+
+
+def mistake_parent_alone(skeleton: Skeleton, turns: Array, joint: int) -> object:
+    point = np.zeros(3)
+    matrices = rotations.to_matrix(turns)  # one by one takes ten times as long
+    while joint > 0:
+        offset = skeleton.offsets[joint]
+        parent = int(skeleton.parents[joint])
+        point = point + matrices[parent] @ offset
+        joint = parent
+    return point
+
+
+def mistake_rest_pose(skeleton: Skeleton, turns: Array, joint: int) -> object:
+    point = np.zeros(3)
+    while joint > 0:
+        point = point + skeleton.offsets[joint]
+        joint = int(skeleton.parents[joint])
+    return point
+
+
+def mistake_turned_by_joint_alone(skeleton: Skeleton, turns: Array, joint: int) -> object:
+    point = np.zeros(3)
+    matrices = rotations.to_matrix(turns)  # one by one takes ten times as long
+    while joint > 0:
+        offset = skeleton.offsets[joint]
+        parent = int(skeleton.parents[joint])
+        point = point + matrices[joint] @ offset
+        joint = parent
+    return point

@@ -1,0 +1,74 @@
+"""Notebook 01b: inputs, right answers and mistakes of `own_axes` and `strikes`."""
+
+import numpy as np
+
+from mocap._shared.arrays import Array, Indices, Mask
+from mocap.body import euler, rotations
+from mocap.course.check import close_rotations
+from mocap.course.checks.answers.common import Arguments
+
+# ---- own_axes
+
+
+def draw_own_axes(rng: np.random.Generator) -> Arguments:
+    angles = [rng.choice([0, 90, -90, 180, *rng.uniform(-80, 80, 16)]) for _ in range(3)]
+    return tuple(map(float, angles))
+
+
+def right_own_axes(z: float, x: float, y: float) -> Array:
+    return euler.from_euler("ZXY", np.radians([z, x, y]))
+
+
+same_own_axes = close_rotations
+
+
+def mistake_fixed_axes(z: float, x: float, y: float) -> object:
+    return euler.from_euler("zxy", np.radians([z, x, y]))
+
+
+def mistake_degrees_as_radians(z: float, x: float, y: float) -> object:
+    return euler.from_euler("ZXY", [z, x, y])
+
+
+def mistake_alphabetical(z: float, x: float, y: float) -> object:
+    return euler.from_euler("XYZ", np.radians([x, y, z]))
+
+
+def mistake_single_rotation(z: float, x: float, y: float) -> object:
+    return rotations.from_rotvec(np.radians([x, y, z]))
+
+
+# ---- strikes
+
+
+def draw_strikes(rng: np.random.Generator) -> Arguments:
+    runs = rng.integers(1, 12, rng.integers(3, 9))
+    return (np.repeat((np.arange(len(runs)) + rng.integers(2)) % 2, runs).astype(bool),)
+
+
+def right_strikes(contact: Mask) -> Indices:
+    return np.flatnonzero(contact[1:] & ~contact[:-1]) + 1
+
+
+def mistake_frame_early(contact: Mask) -> object:
+    return right_strikes(contact) - 1
+
+
+def mistake_all_standing_frames(contact: Mask) -> object:
+    return np.flatnonzero(contact)
+
+
+def mistake_lifts_too(contact: Mask) -> object:
+    return np.flatnonzero(contact[1:] != contact[:-1]) + 1
+
+
+def mistake_lifts(contact: Mask) -> object:
+    return np.flatnonzero(~contact[1:] & contact[:-1]) + 1
+
+
+def mistake_first_frame(contact: Mask) -> object:
+    return np.flatnonzero(np.diff(contact, prepend=False) & contact)
+
+
+def mistake_number_of_strikes(contact: Mask) -> object:
+    return len(right_strikes(contact))

@@ -1,0 +1,85 @@
+"""Notebook 02b: inputs, right answers and mistakes of `window_sums` and `later_by`."""
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.course.checks.answers.common import Arguments
+
+# ---- window_sums
+
+
+def draw_window_sums(rng: np.random.Generator) -> Arguments:
+    return rng.normal(size=rng.integers(7, 12, 2)), int(rng.integers(2, 5))
+
+
+def right_window_sums(products: Array, window: int) -> Array:
+    """Add up products[i + f, j + f] over a window's frames, as far as a window fits."""
+    rows, columns = (count - window + 1 for count in products.shape)
+    blocks = [products[f : f + rows, f : f + columns] for f in range(window)]
+    return np.asarray(np.sum(blocks, axis=0))
+
+
+def mistake_window_too_short(products: Array, window: int) -> object:
+    return right_window_sums(products, window - 1)
+
+
+def mistake_window_too_long(products: Array, window: int) -> object:
+    return right_window_sums(products, window + 1)
+
+
+def mistake_last_window_missing(products: Array, window: int) -> object:
+    return right_window_sums(products, window)[:-1, :-1]
+
+
+def mistake_down_the_columns(products: Array, window: int) -> object:
+    rows, columns = (count - window + 1 for count in products.shape)
+    blocks = [products[f : f + rows, 0:columns] for f in range(window)]
+    return np.sum(blocks, axis=0)
+
+
+def mistake_other_diagonal(products: Array, window: int) -> object:
+    return right_window_sums(products[:, ::-1], window)[:, ::-1]
+
+
+def mistake_mean_of_window(products: Array, window: int) -> object:
+    return right_window_sums(products, window) / window
+
+
+# ---- later_by
+
+
+def draw_later_by(rng: np.random.Generator) -> Arguments:
+    places = rng.normal(size=(int(rng.integers(5, 10)), 3))
+    return (((places[:, None] - places) ** 2).sum(-1),)
+
+
+def right_later_by(grid: Array) -> Array:
+    return np.array([grid.diagonal(n).mean() for n in range(len(grid))])
+
+
+def mistake_sums_of_diagonals(grid: Array) -> object:
+    return np.array([grid.diagonal(n).sum() for n in range(len(grid))])
+
+
+def mistake_divided_by_size(grid: Array) -> object:
+    return np.array([grid.diagonal(n).sum() / len(grid) for n in range(len(grid))])
+
+
+def mistake_mean_of_roots(grid: Array) -> object:
+    return np.array([np.sqrt(grid.diagonal(n)).mean() for n in range(len(grid))])
+
+
+def mistake_diagonals_wrap_around(grid: Array) -> object:
+    return np.array([np.roll(grid, -n, axis=1).diagonal().mean() for n in range(len(grid))])
+
+
+def mistake_mean_of_columns(grid: Array) -> object:
+    return grid.mean(axis=0)
+
+
+def mistake_first_row(grid: Array) -> object:
+    return grid[0]
+
+
+def mistake_without_zero(grid: Array) -> object:
+    return right_later_by(grid)[1:]

@@ -1,0 +1,149 @@
+"""Notebook 02c: answers and mistakes of `turn_free`, `worth_a_look` and `bounds_by_direction`."""
+
+import numpy as np
+from scipy.spatial.distance import pdist, squareform
+
+from mocap._shared.arrays import Array
+from mocap.body.planar import PlanarTransform
+from mocap.course.checks.answers.common import Arguments
+
+# ---- turn_free
+
+
+def draw_turn_free(rng: np.random.Generator) -> Arguments:
+    transform = PlanarTransform(*rng.uniform(-3, 3, 3))
+    points = rng.normal(size=(*rng.integers(3, 7, 2), 3)) * [0.5, 0.5, 1.0] + [0, 1.5, 0]
+    return (transform.apply_points(points),)
+
+
+def right_turn_free(points: Array) -> Array:
+    """Join heights and distances from the window's middle, over the root of the number of points."""
+    heights = points[..., 1]
+    ground = points[..., [0, 2]]
+    radii = np.linalg.norm(ground - ground.mean(axis=(0, 1)), axis=-1)
+    return np.asarray(np.concatenate([heights.ravel(), radii.ravel()]) / np.sqrt(heights.size))
+
+
+def mistake_from_origin(points: Array) -> object:
+    heights = points[..., 1]
+    ground = points[..., [0, 2]]
+    radii = np.linalg.norm(ground, axis=-1)
+    return np.concatenate([heights.ravel(), radii.ravel()]) / np.sqrt(heights.size)
+
+
+def mistake_middle_of_each_frame(points: Array) -> object:
+    heights = points[..., 1]
+    ground = points[..., [0, 2]]
+    radii = np.linalg.norm(ground - ground.mean(axis=1, keepdims=True), axis=-1)
+    return np.concatenate([heights.ravel(), radii.ravel()]) / np.sqrt(heights.size)
+
+
+def mistake_no_weight(points: Array) -> object:
+    heights = points[..., 1]
+    ground = points[..., [0, 2]]
+    radii = np.linalg.norm(ground - ground.mean(axis=(0, 1)), axis=-1)
+    return np.concatenate([heights.ravel(), radii.ravel()]) / 1
+
+
+def mistake_weight_of_squares(points: Array) -> object:
+    heights = points[..., 1]
+    ground = points[..., [0, 2]]
+    radii = np.linalg.norm(ground - ground.mean(axis=(0, 1)), axis=-1)
+    return np.concatenate([heights.ravel(), radii.ravel()]) / heights.size
+
+
+def mistake_squared_radii(points: Array) -> object:
+    heights = points[..., 1]
+    ground = points[..., [0, 2]]
+    radii = np.linalg.norm(ground - ground.mean(axis=(0, 1)), axis=-1)
+    return np.concatenate([heights.ravel(), radii.ravel() ** 2]) / np.sqrt(heights.size)
+
+
+def mistake_coordinates_for_radii(points: Array) -> object:
+    heights = points[..., 1]
+    ground = points[..., [0, 2]]
+    radii = ground - ground.mean(axis=(0, 1))
+    return np.concatenate([heights.ravel(), radii.ravel()]) / np.sqrt(heights.size)
+
+
+def mistake_radii_with_height(points: Array) -> object:
+    heights = points[..., 1]
+    ground = points
+    radii = np.linalg.norm(ground - ground.mean(axis=(0, 1)), axis=-1)
+    return np.concatenate([heights.ravel(), radii.ravel()]) / np.sqrt(heights.size)
+
+
+# ---- worth_a_look
+
+
+def draw_worth_a_look(rng: np.random.Generator) -> Arguments:
+    rows = rng.normal(size=(int(rng.integers(7, 12)), 4))
+    return rows, float(np.quantile(pdist(rows), rng.uniform(0.3, 0.6)))
+
+
+def right_worth_a_look(rows: Array, reach: float) -> set[tuple[int, ...]]:
+    is_near = squareform(pdist(rows)) <= reach
+    return {*map(tuple, np.argwhere(np.triu(is_near, 1)))}
+
+
+def mistake_pairs_twice(rows: Array, reach: float) -> object:
+    is_near = squareform(pdist(rows)) <= reach
+    return {*map(tuple, np.argwhere(is_near & ~np.eye(len(rows), dtype=bool)))}
+
+
+def mistake_pairs_with_itself(rows: Array, reach: float) -> object:
+    is_near = squareform(pdist(rows)) <= reach
+    return {*map(tuple, np.argwhere(np.triu(is_near)))}
+
+
+def mistake_too_far(rows: Array, reach: float) -> object:
+    is_near = squareform(pdist(rows)) > reach
+    return {*map(tuple, np.argwhere(np.triu(is_near, 1)))}
+
+
+def mistake_root_of_reach(rows: Array, reach: float) -> object:
+    is_near = squareform(pdist(rows)) <= np.sqrt(reach)
+    return {*map(tuple, np.argwhere(np.triu(is_near, 1)))}
+
+
+def mistake_city_block(rows: Array, reach: float) -> object:
+    is_near = squareform(pdist(rows, "cityblock")) <= reach
+    return {*map(tuple, np.argwhere(np.triu(is_near, 1)))}
+
+
+# ---- bounds_by_direction
+
+
+def draw_bounds_by_direction(rng: np.random.Generator) -> Arguments:
+    size = int(rng.integers(5, 9))
+    difference = rng.normal(size=size)
+    axes, _ = np.linalg.qr(rng.normal(size=(size, size)))
+    return difference, axes[:, : size - 1]
+
+
+def right_bounds_by_direction(difference: Array, axes: Array) -> Array:
+    return np.sqrt(np.cumsum((difference @ axes) ** 2))
+
+
+def mistake_sums_of_lengths(difference: Array, axes: Array) -> object:
+    return np.cumsum(np.abs(difference @ axes))
+
+
+def mistake_squares_of_lengths(difference: Array, axes: Array) -> object:
+    return np.cumsum((difference @ axes) ** 2)
+
+
+def mistake_single_components(difference: Array, axes: Array) -> object:
+    return np.abs(difference @ axes)
+
+
+def mistake_last_direction_first(difference: Array, axes: Array) -> object:
+    return np.sqrt(np.cumsum((difference @ axes[:, ::-1]) ** 2))
+
+
+def mistake_not_projected(difference: Array, axes: Array) -> object:
+    return np.sqrt(np.cumsum(difference[: axes.shape[1]] ** 2))
+
+
+def mistake_all_directions(difference: Array, axes: Array) -> object:
+    return np.linalg.norm(difference @ axes)

@@ -1,0 +1,111 @@
+"""Notebook 04: inputs, right answers and mistakes of `quintic` and `mix`."""
+
+from typing import Any
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap._shared.easing import quintic_step
+from mocap.blending.joining import blend
+from mocap.blending.weights import cubic_weights
+from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
+from mocap.course.check import close, close_rotations
+from mocap.course.checks.answers.common import Arguments, normalised
+
+
+def mixed_on_lines(a: Motion, b: Motion, alpha: Array, *, is_shorter: bool = False) -> Array:
+    """Mix quaternions on straight lines; if `is_shorter`, to that of b and -b which is nearer to a."""
+    signs = np.sign((a.rotations * b.rotations).sum(-1, keepdims=True)) if is_shorter else 1.0
+    weights = alpha[:, None, None]
+    return np.asarray(weights * a.rotations + (1 - weights) * signs * b.rotations)
+
+
+# ---- quintic
+
+
+def draw_quintic(rng: np.random.Generator) -> Arguments:
+    return (int(rng.integers(2, 60)),)
+
+
+def right_quintic(window: int) -> Array:
+    return 1 - quintic_step(np.arange(1, window + 1) / window)
+
+
+def mistake_rising(window: int) -> object:
+    return 1 - right_quintic(window)
+
+
+def mistake_frame_late(window: int) -> object:
+    return 1 - quintic_step(np.arange(window) / window)
+
+
+def mistake_starts_in_window(window: int) -> object:
+    return 1 - quintic_step(np.linspace(0, 1, window))
+
+
+def mistake_cubic(window: int) -> object:
+    return cubic_weights(window)
+
+
+# ---- mix
+
+
+def draw_mix(rng: np.random.Generator) -> Arguments:
+    """Draw two motions of three joints, in some frames with equal poses, and falling weights."""
+    offsets = np.array([[0, 0, 0], [0, -0.4, 0], [0, -0.4, 0]])
+    body = Skeleton(["hip", "knee", "foot"], np.array([-1, 0, 1]), offsets)
+    frames = int(rng.integers(4, 9))
+    turns = normalised(rng.normal(size=(2, frames, 3, 4)))
+    turns[1, 0] = turns[0, 0] * rng.choice([-1, 1])
+    a, b = (Motion(body, rng.normal(size=(frames, 3)), quaternions, 30.0) for quaternions in turns)
+    return a, b, np.sort(rng.uniform(0, 1, frames))[::-1].copy()
+
+
+def right_mix(a: Motion, b: Motion, alpha: Array) -> tuple[Array, Array]:
+    """Mix two motions as the package does."""
+    mixed = blend(a, b, alpha)
+    return (mixed.root_positions, mixed.rotations)
+
+
+def same_mix(answer: Any, wanted: tuple[Array, Array]) -> bool:  # noqa: ANN401
+    return len(answer) == 2 and close(answer[0], wanted[0]) and close_rotations(answer[1], wanted[1])
+
+
+def mistake_weight_of_b(a: Motion, b: Motion, alpha: Array) -> object:
+    return right_mix(a, b, 1 - alpha)
+
+
+def mistake_rotations_reversed(a: Motion, b: Motion, alpha: Array) -> object:
+    roots, _ = right_mix(a, b, alpha)
+    return roots, right_mix(a, b, 1 - alpha)[1]
+
+
+def mistake_roots_reversed(a: Motion, b: Motion, alpha: Array) -> object:
+    _, rotations = right_mix(a, b, alpha)
+    return right_mix(a, b, 1 - alpha)[0], rotations
+
+
+def mistake_roots_alone(a: Motion, b: Motion, alpha: Array) -> object:
+    roots, _ = right_mix(a, b, alpha)
+    return roots, a.rotations
+
+
+def mistake_root_joint_alone(a: Motion, b: Motion, alpha: Array) -> object:
+    roots, rotations = right_mix(a, b, alpha)
+    return roots, np.concatenate([rotations[:, :1], a.rotations[:, 1:]], axis=1)
+
+
+def mistake_straight_lines(a: Motion, b: Motion, alpha: Array) -> object:
+    roots, _ = right_mix(a, b, alpha)
+    return roots, mixed_on_lines(a, b, alpha)
+
+
+def mistake_scaled_straight_lines(a: Motion, b: Motion, alpha: Array) -> object:
+    roots, _ = right_mix(a, b, alpha)
+    return roots, normalised(mixed_on_lines(a, b, alpha))
+
+
+def mistake_scaled_shorter_lines(a: Motion, b: Motion, alpha: Array) -> object:
+    roots, _ = right_mix(a, b, alpha)
+    return roots, normalised(mixed_on_lines(a, b, alpha, is_shorter=True))

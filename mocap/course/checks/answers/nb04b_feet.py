@@ -1,0 +1,114 @@
+"""Notebook 04b: inputs, right answers and mistakes of `slide`, `plant_marks` and `knee_bend`."""
+
+import numpy as np
+
+from mocap._shared.arrays import Array, Mask
+from mocap.course.checks.answers.common import Arguments, grown
+
+# ---- slide
+
+
+def draw_slide(rng: np.random.Generator) -> Arguments:
+    positions = rng.normal(size=(20, 3)).cumsum(axis=0) * 0.01
+    planted = np.arange(20) - rng.integers(0, 10) < rng.integers(4, 10)
+    return positions, planted
+
+
+def right_slide(positions: Array, planted: Mask) -> float:
+    ground = positions[planted][:, [0, 2]]
+    return float(100 * np.linalg.norm(ground - ground.mean(axis=0), axis=1).max())
+
+
+def mistake_slide_with_height(positions: Array, planted: Mask) -> object:
+    ground = positions[planted]
+    return 100 * np.linalg.norm(ground - ground.mean(axis=0), axis=1).max()
+
+
+def mistake_in_metres(positions: Array, planted: Mask) -> object:
+    return right_slide(positions, planted) / 100
+
+
+def mistake_all_frames(positions: Array, planted: Mask) -> object:
+    ground = positions[:, [0, 2]]
+    return 100 * np.linalg.norm(ground - ground.mean(axis=0), axis=1).max()
+
+
+def mistake_mean_of_all_frames(positions: Array, planted: Mask) -> object:
+    ground = positions[planted][:, [0, 2]]
+    return 100 * np.linalg.norm(ground - positions[:, [0, 2]].mean(axis=0), axis=1).max()
+
+
+def mistake_from_first_place(positions: Array, planted: Mask) -> object:
+    ground = positions[planted][:, [0, 2]]
+    return 100 * np.linalg.norm(ground - ground[0], axis=1).max()
+
+
+def mistake_first_to_last(positions: Array, planted: Mask) -> object:
+    ground = positions[planted][:, [0, 2]]
+    return 100 * np.hypot(*(ground[-1] - ground[0]))
+
+
+def mistake_length_of_path(positions: Array, planted: Mask) -> object:
+    return 100 * np.hypot(*np.diff(positions[planted][:, [0, 2]], axis=0).T).sum()
+
+
+# ---- plant_marks
+
+
+def draw_plant_marks(rng: np.random.Generator) -> Arguments:
+    level = np.repeat(rng.uniform(0.0, 1.0, 8), rng.integers(2, 6, 8))
+    return np.abs(level + rng.normal(0, 0.08, len(level))), 0.25, 0.5
+
+
+def right_plant_marks(speed: Array, start: float, stay: float) -> Mask:
+    return grown(speed, start, stay)
+
+
+def mistake_start_alone(speed: Array, start: float, stay: float) -> object:
+    return speed < start
+
+
+def mistake_stay_alone(speed: Array, start: float, stay: float) -> object:
+    return speed < stay
+
+
+def mistake_forwards_alone(speed: Array, start: float, stay: float) -> object:
+    return grown(speed, start, stay, (1,))
+
+
+def mistake_backwards_alone(speed: Array, start: float, stay: float) -> object:
+    return grown(speed, start, stay, (-1,))
+
+
+def mistake_inverted(speed: Array, start: float, stay: float) -> object:
+    return ~right_plant_marks(speed, start, stay)
+
+
+# ---- knee_bend
+
+
+def draw_knee_bend(rng: np.random.Generator) -> Arguments:
+    bones = rng.uniform(0.3, 0.5, 2)
+    return *bones, float(bones.sum() * rng.uniform(0.5, 0.99))
+
+
+def right_knee_bend(thigh: float, shank: float, distance: float) -> float:
+    cosine = (thigh**2 + shank**2 - distance**2) / (2 * thigh * shank)
+    return float(np.pi - np.arccos(cosine))
+
+
+def mistake_angle_between_bones(thigh: float, shank: float, distance: float) -> object:
+    return np.pi - right_knee_bend(thigh, shank, distance)
+
+
+def mistake_in_degrees(thigh: float, shank: float, distance: float) -> object:
+    return np.degrees(right_knee_bend(thigh, shank, distance))
+
+
+def mistake_hip_angle(thigh: float, shank: float, distance: float) -> object:
+    cosine = (thigh**2 + distance**2 - shank**2) / (2 * thigh * distance)
+    return np.arccos(cosine)
+
+
+def mistake_negative_bend(thigh: float, shank: float, distance: float) -> object:
+    return -right_knee_bend(thigh, shank, distance)

@@ -1,0 +1,134 @@
+"""Notebook 05: inputs, right answers and mistakes of `choice_points` and `successors_of`."""
+
+from itertools import combinations, pairwise
+from typing import Any
+
+import numpy as np
+
+from mocap.course.check import close
+from mocap.course.checks.answers.common import Arguments
+
+Node = tuple[int, int]
+"""A clip and a frame."""
+
+Link = tuple[int, int, int, int]
+"""A transition: the clip and the frame that it leaves, the clip and the frame that it enters."""
+
+# ---- choice_points
+
+
+def draw_choice_points(rng: np.random.Generator) -> Arguments:
+    """Draw a clip's length, where transitions leave and enter it, and their window."""
+    frames = int(rng.integers(60, 300))
+    window = int(rng.integers(5, 15))
+    leaves, enters = (rng.integers(0, frames - window, rng.integers(1, 9)) for _ in range(2))
+    return frames, [*leaves.tolist(), int(leaves[0])], enters.tolist(), window
+
+
+def right_choice_points(frames: int, leaves: list[int], enters: list[int], window: int) -> list[int]:
+    return sorted({0, frames, *leaves, *(e + window for e in enters)})
+
+
+def same_choice_points(answer: Any, wanted: list[int]) -> bool:  # noqa: ANN401
+    return answer == wanted if set in (type(answer), type(wanted)) else close(answer, wanted)
+
+
+def mistake_unsorted(frames: int, leaves: list[int], enters: list[int], window: int) -> object:
+    return {0, frames, *leaves, *(e + window for e in enters)}
+
+
+def mistake_window_played_twice(frames: int, leaves: list[int], enters: list[int], window: int) -> object:
+    return sorted({0, frames, *leaves, *enters})
+
+
+def mistake_without_ends(frames: int, leaves: list[int], enters: list[int], window: int) -> object:
+    return sorted({*leaves, *(e + window for e in enters)})
+
+
+def mistake_leaves_after_window(frames: int, leaves: list[int], enters: list[int], window: int) -> object:
+    return sorted({0, frames, *(i + window for i in leaves), *(e + window for e in enters)})
+
+
+def mistake_last_frame(frames: int, leaves: list[int], enters: list[int], window: int) -> object:
+    return sorted({0, frames - 1, *leaves, *(e + window for e in enters)})
+
+
+def mistake_twice_the_same(frames: int, leaves: list[int], enters: list[int], window: int) -> object:
+    return sorted([0, frames, *leaves, *(e + window for e in enters)])
+
+
+# ---- successors_of
+
+
+def nodes_of(points: list[list[int]]) -> dict[Node, list[Node]]:
+    """Return an empty list for each node."""
+    return {(clip, frame): [] for clip, frames in enumerate(points) for frame in frames}
+
+
+def draw_successors_of(rng: np.random.Generator) -> Arguments:
+    """Draw the choice points of two or three clips, the transitions between them, and their window."""
+    window = int(rng.integers(3, 9))
+    lengths = rng.integers(60, 120, rng.integers(2, 4))
+    points = [{0, int(length)} for length in lengths]
+    links = []
+    for _ in range(rng.integers(3, 8)):
+        source, target = rng.integers(len(lengths), size=2).tolist()
+        leave, enter = (int(rng.integers(1, lengths[clip] - window)) for clip in (source, target))
+        points[source].add(leave)
+        points[target].add(enter + window)
+        links.append((source, leave, target, enter))
+    return [sorted(frames) for frames in points], links, window
+
+
+def right_successors_of(points: list[list[int]], links: list[Link], window: int) -> dict[Node, list[Node]]:
+    """Join each choice point to the next of its clip, and the two ends of each transition."""
+    following = nodes_of(points)
+    for clip, frames in enumerate(points):
+        for start, end in pairwise(frames):
+            following[clip, start].append((clip, end))
+    for source, leave, target, enter in links:
+        following.setdefault((source, leave), []).append((target, enter + window))
+    return following
+
+
+def same_successors_of(answer: Any, wanted: dict[Node, list[Node]]) -> bool:  # noqa: ANN401
+    is_same = [sorted(answer[node]) == sorted(ends) for node, ends in wanted.items()]
+    return answer.keys() == wanted.keys() and all(is_same)
+
+
+def mistake_ends_at_enter(points: list[list[int]], links: list[Link], window: int) -> object:
+    early = [(source, leave, target, enter - window) for source, leave, target, enter in links]
+    return right_successors_of(points, early, window)
+
+
+def mistake_begins_after_window(points: list[list[int]], links: list[Link], window: int) -> object:
+    late = [(source, leave + window, target, enter) for source, leave, target, enter in links]
+    return right_successors_of(points, late, window)
+
+
+def mistake_clips_joined(points: list[list[int]], links: list[Link], window: int) -> object:
+    joined = [(clip, points[clip][-1], clip + 1, -window) for clip in range(len(points) - 1)]
+    return right_successors_of(points, [*links, *joined], window)
+
+
+def mistake_skips_choice_points(points: list[list[int]], links: list[Link], window: int) -> object:
+    following = nodes_of(points)
+    for clip, frames in enumerate(points):
+        for start, end in combinations(frames, 2):
+            following[clip, start].append((clip, end))
+    for source, leave, target, enter in links:
+        following.setdefault((source, leave), []).append((target, enter + window))
+    return following
+
+
+def mistake_without_transitions(points: list[list[int]], links: list[Link], window: int) -> object:
+    return right_successors_of(points, [], window)
+
+
+def mistake_without_last_nodes(points: list[list[int]], links: list[Link], window: int) -> object:
+    return {node: ends for node, ends in right_successors_of(points, links, window).items() if ends}
+
+
+def mistake_both_directions(points: list[list[int]], links: list[Link], window: int) -> object:
+    back = [(target, enter + window, source, leave - window) for source, leave, target, enter in links]
+    return right_successors_of(points, [*links, *back], window)

@@ -1,0 +1,125 @@
+"""Notebook 08: inputs, right answers and mistakes of `survivors` and `look_ahead`."""
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+
+from mocap._shared.arrays import Array, Indices, Points
+from mocap.course.checks.answers.common import Arguments
+
+Walk = tuple[complex, complex, float, float]
+"""A walk: rotation, translation, metres along the line, and cost."""
+
+Line = Callable[[Array], Points]
+"""From metres along a line to its points."""
+
+# ---- survivors
+
+
+def draw_survivors(rng: np.random.Generator) -> Arguments:
+    count = int(rng.integers(30, 60))
+    return rng.integers(0, 2, size=(count, 4)), rng.permutation(count) / 100, int(rng.integers(3, 7))
+
+
+def right_survivors(stand: Indices, costs: Array, width: int) -> Indices:
+    """Keep the best of the walks that stand alike, and of these the cheapest."""
+    order = np.argsort(costs)
+    _, first = np.unique(stand[order], axis=0, return_index=True)
+    return order[np.sort(first)[:width]]
+
+
+def mistake_beam_alone(stand: Indices, costs: Array, width: int) -> object:
+    return np.argsort(costs)[:width]
+
+
+def mistake_dominance_alone(stand: Indices, costs: Array, width: int) -> object:
+    return right_survivors(stand, costs, len(costs))
+
+
+def mistake_beam_first(stand: Indices, costs: Array, width: int) -> object:
+    order = np.argsort(costs)[:width]
+    _, first = np.unique(stand[order], axis=0, return_index=True)
+    return order[np.sort(first)[:width]]
+
+
+def mistake_first_in_list(stand: Indices, costs: Array, width: int) -> object:
+    _, first = np.unique(stand, axis=0, return_index=True)
+    return first[np.argsort(costs[first])][:width]
+
+
+def mistake_heading_ignored(stand: Indices, costs: Array, width: int) -> object:
+    return right_survivors(stand[:, :3], costs, width)
+
+
+def mistake_unsorted(stand: Indices, costs: Array, width: int) -> object:
+    return np.sort(right_survivors(stand, costs, width))
+
+
+# ---- look_ahead
+
+
+def draw_look_ahead(rng: np.random.Generator) -> Arguments:
+    """Draw a walk, its root in the coming frames, and a line."""
+    corners = rng.normal(size=(rng.integers(4, 9), 2)).cumsum(axis=0) @ [1, 1j]
+    reached = np.append(0, np.cumsum(abs(np.diff(corners))))
+    along = float(rng.uniform(0, reached[-1]))
+    ahead = (rng.normal(scale=0.05, size=(rng.integers(4, 12), 2)) @ [1, 1j]).cumsum()
+    rotation = complex(np.exp(1j * rng.uniform(-3, 3)))
+    point = complex(np.interp(along, reached, corners))
+    walk = rotation, complex(point + 0.1 - rotation * ahead[0]), along, 0.7
+    line = partial(np.interp, xp=reached, fp=corners)  # a function that can be sent to another process
+    return walk, ahead, line, 0.4
+
+
+def distances_of(walk: Walk, ahead: Points, line: Line) -> Array:
+    """Measure from each coming frame to the point of the line where it should be."""
+    rotation, translation, along, _ = walk
+    s = np.asarray(along + np.cumsum(abs(np.diff(ahead))))
+    return np.asarray(abs(rotation * ahead[1:] + translation - line(s)))
+
+
+def right_look_ahead(walk: Walk, ahead: Points, line: Line, limit: float) -> float:
+    """Compute Eq. 9 for the coming frames, at most `limit`."""
+    return min(float((distances_of(walk, ahead, line) ** 2).sum()), limit)
+
+
+def mistake_not_transformed(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    _, _, along, cost = walk
+    return right_look_ahead((1, 0, along, cost), ahead, line, limit)
+
+
+def mistake_translated_first(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    rotation, translation, along, cost = walk
+    return right_look_ahead((rotation, rotation * translation, along, cost), ahead, line, limit)
+
+
+def mistake_not_rotated(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    _, translation, along, cost = walk
+    return right_look_ahead((1, translation, along, cost), ahead, line, limit)
+
+
+def mistake_distances(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    return min(float(distances_of(walk, ahead, line).sum()), limit)
+
+
+def mistake_mean_of_frames(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    return min(float((distances_of(walk, ahead, line) ** 2).mean()), limit)
+
+
+def mistake_starts_at_zero(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    rotation, translation, _, cost = walk
+    return right_look_ahead((rotation, translation, 0.0, cost), ahead, line, limit)
+
+
+def mistake_point_stands_still(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    _, _, along, _ = walk
+    return right_look_ahead(walk, ahead, lambda s: line(np.full(len(s), along)), limit)
+
+
+def mistake_unlimited(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    return right_look_ahead(walk, ahead, line, np.inf)
+
+
+def mistake_spared(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    return limit - right_look_ahead(walk, ahead, line, limit)

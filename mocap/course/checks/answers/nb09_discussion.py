@@ -1,0 +1,119 @@
+"""Notebook 09: inputs, right answers and mistakes of `alive` and `added_terms`."""
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.course.checks.answers.common import Arguments, draw_odds
+
+# ---- alive
+
+
+def draw_alive(rng: np.random.Generator) -> Arguments:
+    return draw_odds(rng)
+
+
+def right_alive(odds: Array, steps: int) -> float:
+    return float(np.linalg.matrix_power(odds, steps).sum(axis=1).mean())
+
+
+def mistake_entrywise_power(odds: Array, steps: int) -> object:
+    return (odds**steps).sum(axis=1).mean()
+
+
+def mistake_dying(odds: Array, steps: int) -> object:
+    return 1 - right_alive(odds, steps)
+
+
+def mistake_sum_over_starts(odds: Array, steps: int) -> object:
+    return np.linalg.matrix_power(odds, steps).sum()
+
+
+def mistake_mean_over_places(odds: Array, steps: int) -> object:
+    return np.linalg.matrix_power(odds, steps).mean()
+
+
+def mistake_power_of_mean(odds: Array, steps: int) -> object:
+    return odds.sum(axis=1).mean() ** steps
+
+
+def mistake_start_asked_again(odds: Array, steps: int) -> object:
+    return (odds.sum(axis=1) ** steps).mean()
+
+
+def mistake_step_too_few(odds: Array, steps: int) -> object:
+    return np.linalg.matrix_power(odds, steps - 1).sum(axis=1).mean()
+
+
+def mistake_step_too_many(odds: Array, steps: int) -> object:
+    return np.linalg.matrix_power(odds, steps + 1).sum(axis=1).mean()
+
+
+# ---- added_terms
+
+
+def draw_added_terms(rng: np.random.Generator) -> Arguments:
+    """Draw how far two clips are apart, and weights that fall between frames of ones and of zeros."""
+    steps = np.arange(1, int(rng.integers(8, 60)) + 1)
+    falling = (1 - steps / len(steps)) ** rng.uniform(1.5, 4)  # it rarely passes 0.5 in the middle
+    weights = np.concatenate([np.ones(3), falling, np.zeros(3)])
+    return rng.normal(size=(len(weights), int(rng.integers(1, 7)))).cumsum(axis=0), weights
+
+
+def right_added_terms(gap: Array, alpha: Array) -> tuple[Array, Array]:
+    """Give both terms of the product rule by central differences."""
+    slope = (alpha[2:] - alpha[:-2]) / 2
+    speed = (gap[2:] - gap[:-2]) / 2
+    curvature = np.diff(alpha, 2)
+    return curvature[:, None] * gap[1:-1], 2 * slope[:, None] * speed
+
+
+def mistake_mixed_term_once(gap: Array, alpha: Array) -> object:
+    position_term, velocity_term = right_added_terms(gap, alpha)
+    return position_term, velocity_term / 2
+
+
+def mistake_one_difference_not_halved(gap: Array, alpha: Array) -> object:
+    position_term, velocity_term = right_added_terms(gap, alpha)
+    return position_term, velocity_term * 2
+
+
+def mistake_both_not_halved(gap: Array, alpha: Array) -> object:
+    position_term, velocity_term = right_added_terms(gap, alpha)
+    return position_term, velocity_term * 4
+
+
+def mistake_backward_differences(gap: Array, alpha: Array) -> object:
+    position_term, _ = right_added_terms(gap, alpha)
+    slope = np.diff(alpha)[:-1]
+    return position_term, 2 * slope[:, None] * np.diff(gap, axis=0)[:-1]
+
+
+def mistake_forward_differences(gap: Array, alpha: Array) -> object:
+    position_term, _ = right_added_terms(gap, alpha)
+    slope = np.diff(alpha)[1:]
+    return position_term, 2 * slope[:, None] * np.diff(gap, axis=0)[1:]
+
+
+def mistake_gap_early(gap: Array, alpha: Array) -> object:
+    _, velocity_term = right_added_terms(gap, alpha)
+    return np.diff(alpha, 2)[:, None] * gap[:-2], velocity_term
+
+
+def mistake_gap_late(gap: Array, alpha: Array) -> object:
+    _, velocity_term = right_added_terms(gap, alpha)
+    return np.diff(alpha, 2)[:, None] * gap[2:], velocity_term
+
+
+def mistake_velocity_first(gap: Array, alpha: Array) -> object:
+    position_term, velocity_term = right_added_terms(gap, alpha)
+    return velocity_term, position_term
+
+
+def mistake_sum_of_terms(gap: Array, alpha: Array) -> object:
+    position_term, velocity_term = right_added_terms(gap, alpha)
+    return position_term + velocity_term
+
+
+def mistake_clips_jolt(gap: Array, alpha: Array) -> object:
+    position_term, velocity_term = right_added_terms(gap, alpha)
+    return position_term, velocity_term + alpha[1:-1, None] * np.diff(gap, 2, axis=0)

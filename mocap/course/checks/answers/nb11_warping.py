@@ -1,0 +1,151 @@
+"""Notebook 11: inputs, right answers and mistakes of `offset_curve`, `cardinal_slopes` and `flight_time`."""
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.body.rotations import from_rotvec, inverse, multiply, to_rotvec
+from mocap.course.check import close_rotations
+from mocap.course.checks.answers.common import Arguments
+
+
+def long_way(quaternion: Array) -> Array:
+    """Return a rotation vector without taking the shorter of the two arcs."""
+    real = quaternion[0]
+    vector = quaternion[1:]
+    length = np.linalg.norm(vector)
+    return np.asarray(2 * np.arctan2(length, real) * vector / length)
+
+
+# ---- offset_curve
+
+
+def draw_offset_curve(rng: np.random.Generator) -> Arguments:
+    """Draw a joint's rotations, a key, the pose asked for there (of either sign), and the shares."""
+    q = from_rotvec(rng.normal(size=3) + rng.normal(scale=0.15, size=(20, 3)).cumsum(axis=0))
+    key = int(rng.integers(5, 15))
+    pose = multiply(q[key], from_rotvec(rng.normal(size=3))) * rng.choice([-1, 1])
+    share = np.clip(1 - np.abs(np.arange(20) - key) / 6, 0, 1)
+    return q, key, pose, share
+
+
+def right_offset_curve(q: Array, key: int, pose: Array, share: Array) -> Array:
+    return multiply(q, from_rotvec(share[:, None] * to_rotvec(multiply(inverse(q[key]), pose))))
+
+
+same_offset_curve = close_rotations
+
+
+def mistake_offset_on_the_left(q: Array, key: int, pose: Array, share: Array) -> object:
+    return multiply(from_rotvec(share[:, None] * to_rotvec(multiply(inverse(q[key]), pose))), q)
+
+
+def mistake_opposite_offset(q: Array, key: int, pose: Array, share: Array) -> object:
+    return multiply(q, from_rotvec(-share[:, None] * to_rotvec(multiply(inverse(q[key]), pose))))
+
+
+def mistake_rotation_vectors_subtracted(q: Array, key: int, pose: Array, share: Array) -> object:
+    return multiply(q, from_rotvec(share[:, None] * (to_rotvec(pose) - to_rotvec(q[key]))))
+
+
+def mistake_long_way_round(q: Array, key: int, pose: Array, share: Array) -> object:
+    return multiply(q, from_rotvec(share[:, None] * long_way(multiply(inverse(q[key]), pose))))
+
+
+def mistake_offset_of_each_frame(q: Array, key: int, pose: Array, share: Array) -> object:
+    return multiply(q, from_rotvec(share[:, None] * to_rotvec(multiply(inverse(q), pose))))
+
+
+def mistake_whole_offset(q: Array, key: int, pose: Array, share: Array) -> object:
+    return multiply(q, from_rotvec(1 * to_rotvec(multiply(inverse(q[key]), pose))))
+
+
+def mistake_numbers_mixed(q: Array, key: int, pose: Array, share: Array) -> object:
+    return (1 - share[:, None]) * q + share[:, None] * pose
+
+
+def mistake_parents_frame(q: Array, key: int, pose: Array, share: Array) -> object:
+    return multiply(from_rotvec(share[:, None] * to_rotvec(multiply(pose, inverse(q[key])))), q)
+
+
+# ---- cardinal_slopes
+
+
+def draw_cardinal_slopes(rng: np.random.Generator) -> Arguments:
+    count = int(rng.integers(3, 7))
+    return rng.uniform(3, 30, count).cumsum(), rng.normal(size=count), float(rng.uniform(0.1, 0.9))
+
+
+def right_cardinal_slopes(times: Array, values: Array, tension: float) -> Array:
+    """Give the slopes of a cardinal spline: of each key those of its neighbours' chord, at the ends none."""
+    slopes = np.zeros(len(times))
+    rises = values[2:] - values[:-2]
+    slopes[1:-1] = (1 - tension) * rises / (times[2:] - times[:-2])
+    return slopes
+
+
+def mistake_number_of_keys(times: Array, values: Array, tension: float) -> object:
+    slopes = np.zeros(len(times))
+    rises = values[2:] - values[:-2]
+    slopes[1:-1] = (1 - tension) * rises / 2
+    return slopes
+
+
+def mistake_no_tension(times: Array, values: Array, tension: float) -> object:
+    return right_cardinal_slopes(times, values, 0.0)
+
+
+def mistake_tension_for_slack(times: Array, values: Array, tension: float) -> object:
+    return right_cardinal_slopes(times, values, 1 - tension)
+
+
+def mistake_steep_ends(times: Array, values: Array, tension: float) -> object:
+    slopes = (1 - tension) * np.gradient(values, times)
+    rises = values[2:] - values[:-2]
+    slopes[1:-1] = (1 - tension) * rises / (times[2:] - times[:-2])
+    return slopes
+
+
+def mistake_next_key_alone(times: Array, values: Array, tension: float) -> object:
+    slopes = np.zeros(len(times))
+    rises = values[2:] - values[1:-1]
+    slopes[1:-1] = (1 - tension) * rises / (times[2:] - times[1:-1])
+    return slopes
+
+
+# ---- flight_time
+
+
+def draw_flight_time(rng: np.random.Generator) -> Arguments:
+    return float(rng.uniform(0.1, 0.6)), float(rng.uniform(0.05, 0.5))
+
+
+def right_flight_time(rise: float, added: float) -> float:
+    return float(np.sqrt((rise + added) / rise))
+
+
+def mistake_ratio_of_heights(rise: float, added: float) -> object:
+    return (rise + added) / rise
+
+
+def mistake_ratio_of_added(rise: float, added: float) -> object:
+    return added / rise
+
+
+def mistake_squared_ratio(rise: float, added: float) -> object:
+    return ((rise + added) / rise) ** 2
+
+
+def mistake_linearised(rise: float, added: float) -> object:
+    return 1 + added / (2 * rise)
+
+
+def mistake_root_of_added(rise: float, added: float) -> object:
+    return np.sqrt(added / rise)
+
+
+def mistake_inverse_ratio(rise: float, added: float) -> object:
+    return np.sqrt(rise / (rise + added))
+
+
+def mistake_in_seconds(rise: float, added: float) -> object:
+    return 2 * np.sqrt(2 * (rise + added) / 9.81)

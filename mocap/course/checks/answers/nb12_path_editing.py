@@ -1,0 +1,140 @@
+"""Notebook 12: inputs, right answers and mistakes of `arc_length`, `carry` and `plant_place`."""
+
+import numpy as np
+
+from mocap._shared.arrays import Array, Mask
+from mocap.course.checks.answers.common import Arguments
+
+# ---- arc_length
+
+
+def draw_arc_length(rng: np.random.Generator) -> Arguments:
+    return (rng.normal(size=(rng.integers(4, 12), 2)).cumsum(axis=0),)
+
+
+def right_arc_length(points: Array) -> Array:
+    return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+
+
+def mistake_start_missing(points: Array) -> object:
+    return right_arc_length(points)[1:]
+
+
+def mistake_squared_steps(points: Array) -> object:
+    return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T) ** 2)])
+
+
+def mistake_city_block(points: Array) -> object:
+    return np.concatenate([[0.0], np.cumsum(np.abs(np.diff(points, axis=0)).sum(axis=1))])
+
+
+def mistake_straight_from_start(points: Array) -> object:
+    return np.linalg.norm(points - points[0], axis=1)
+
+
+def mistake_single_steps(points: Array) -> object:
+    return np.concatenate([[0.0], np.asarray(np.hypot(*np.diff(points, axis=0).T))])
+
+
+def mistake_fractions(points: Array) -> object:
+    correct = right_arc_length(points)
+    return correct / correct[-1]
+
+
+# ---- carry
+
+
+def draw_carry(rng: np.random.Generator) -> Arguments:
+    count = int(rng.integers(3, 9))
+    return rng.normal(size=(count, 2)), *rng.normal(size=(2, count, 3)) * [1.0, 2.0, 2.0]
+
+
+def right_carry(points: Array, old: Array, new: Array) -> Array:
+    """Carry points from cart to cart, as complex numbers z + ix."""
+    on_cart = np.exp(-1j * old[:, 0]) * (points @ [1j, 1] - old @ [0, 1j, 1])
+    ground = np.exp(1j * new[:, 0]) * on_cart + new @ [0, 1j, 1]
+    return np.stack([ground.imag, ground.real], axis=1)
+
+
+def mistake_opposite_turns(points: Array, old: Array, new: Array) -> object:
+    return right_carry(points, old * [-1, 1, 1], new * [-1, 1, 1])
+
+
+def mistake_new_cart_first(points: Array, old: Array, new: Array) -> object:
+    ground = np.exp(1j * new[:, 0]) * (points @ [1j, 1]) + new @ [0, 1j, 1]
+    on_cart = np.exp(-1j * old[:, 0]) * (ground - old @ [0, 1j, 1])
+    return np.stack([on_cart.imag, on_cart.real], axis=1)
+
+
+def mistake_carts_not_turned(points: Array, old: Array, new: Array) -> object:
+    return points + new[:, 1:] - old[:, 1:]
+
+
+def mistake_about_the_origin(points: Array, old: Array, new: Array) -> object:
+    on_cart = np.exp(-1j * old[:, 0]) * (points @ [1j, 1])
+    ground = np.exp(1j * new[:, 0]) * on_cart + (new - old) @ [0, 1j, 1]
+    return np.stack([ground.imag, ground.real], axis=1)
+
+
+def mistake_new_to_old(points: Array, old: Array, new: Array) -> object:
+    return right_carry(points, new, old)
+
+
+def mistake_first_old_cart(points: Array, old: Array, new: Array) -> object:
+    return right_carry(points, old[:1].repeat(len(old), 0), new)
+
+
+def mistake_on_the_cart(points: Array, old: Array, new: Array) -> object:
+    on_cart = np.exp(-1j * old[:, 0]) * (points @ [1j, 1] - old @ [0, 1j, 1])
+    ground = on_cart
+    return np.stack([ground.imag, ground.real], axis=1)
+
+
+def mistake_z_first(points: Array, old: Array, new: Array) -> object:
+    return right_carry(points, old, new)[:, ::-1]
+
+
+# ---- plant_place
+
+
+def draw_plant_place(rng: np.random.Generator) -> Arguments:
+    """Draw places of a joint that rises and falls by 10 cm, and the frames in which it stands."""
+    count = int(rng.integers(12, 24))
+    start = int(rng.integers(2, 5))
+    frames = np.arange(count)
+    planted = (frames >= start) & (frames < start + rng.integers(4, 7))
+    positions = rng.normal(size=(count, 3)).cumsum(axis=0) * 0.02
+    positions[:, 1] += np.where(planted, 0.0, 0.1)
+    return positions, planted
+
+
+def right_plant_place(positions: Array, planted: Mask) -> Array:
+    return np.asarray(positions[planted].mean(axis=0))
+
+
+def mistake_all_frames(positions: Array, planted: Mask) -> object:
+    return positions.mean(axis=0)
+
+
+def mistake_first_frame(positions: Array, planted: Mask) -> object:
+    return positions[planted][0]
+
+
+def mistake_last_frame(positions: Array, planted: Mask) -> object:
+    return positions[planted][-1]
+
+
+def mistake_middle_frame(positions: Array, planted: Mask) -> object:
+    return positions[planted][planted.sum() // 2]
+
+
+def mistake_median(positions: Array, planted: Mask) -> object:
+    return np.median(positions[planted], axis=0)
+
+
+def mistake_height_dropped(positions: Array, planted: Mask) -> object:
+    return np.array([1.0, 0.0, 1.0]) * right_plant_place(positions, planted)
+
+
+def mistake_height_of_all_frames(positions: Array, planted: Mask) -> object:
+    return right_plant_place(positions, planted) * [1, 0, 1] + positions.mean(axis=0) * [0, 1, 0]

@@ -1,0 +1,168 @@
+"""Notebook 19: inputs, right answers and mistakes of `assign`, `lay_group` and `slots`."""
+
+from functools import reduce
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from mocap._shared.arrays import Indices, Points
+from mocap.course.checks.answers.common import Arguments
+
+
+def greedy(a: Points, b: Points) -> Indices:
+    """Assign the nearest pair first, then the nearest of the remaining members."""
+    squares = abs(a[:, None] - b) ** 2
+    order = np.zeros(len(a), int)
+    for _ in a:
+        i, j = divmod(int(squares.argmin()), len(b))
+        order[i] = j
+        squares[i] = np.inf
+        squares[:, j] = np.inf
+    return order
+
+
+# ---- assign
+
+
+def draw_assign(rng: np.random.Generator) -> Arguments:
+    return tuple(rng.normal(0, 1.5, (2, int(rng.integers(8, 13)), 2)) @ [1, 1j])
+
+
+def right_assign(a: Points, b: Points) -> Indices:
+    return np.asarray(linear_sum_assignment(abs(a[:, None] - b) ** 2)[1])
+
+
+def mistake_nearest_of_each(a: Points, b: Points) -> object:
+    return np.argmin(abs(a[:, None] - b), axis=1)
+
+
+def mistake_numbers_kept(a: Points, b: Points) -> object:
+    return np.arange(len(a))
+
+
+def mistake_from_b_to_a(a: Points, b: Points) -> object:
+    return np.argsort(right_assign(a, b))
+
+
+def mistake_greedy_pairs(a: Points, b: Points) -> object:
+    return greedy(a, b)
+
+
+def mistake_sum_of_distances(a: Points, b: Points) -> object:
+    return linear_sum_assignment(abs(a[:, None] - b) ** 1)[1]
+
+
+def mistake_greatest_sum(a: Points, b: Points) -> object:
+    return linear_sum_assignment(abs(a[:, None] - b) ** 2, maximize=True)[1]
+
+
+# ---- lay_group
+
+
+def draw_lay_group(rng: np.random.Generator) -> Arguments:
+    """Draw a group, and the same one rotated, translated and disturbed."""
+    count = int(rng.integers(5, 10))
+    turn = np.exp(1j * rng.uniform(-3, 3))
+    pa = np.asarray(rng.normal(0, 1.5, (count, 2)) @ [1, 1j] + complex(*rng.normal(0, 5, 2)), complex)
+    va = np.asarray(1.1 + rng.normal(0, 0.3, (count, 2)) @ [1, 1j], complex)
+    shaken = rng.normal(0, 0.5, (2, count, 2)) @ [1, 1j]
+    move = complex(*rng.normal(0, 6, 2))
+    return pa, va, (pa + shaken[0]) * turn + move, (va + shaken[1]) * turn
+
+
+def right_lay_group(pa: Points, va: Points, pb: Points, vb: Points) -> tuple[complex, complex]:
+    """Align one group with another, by positions and velocities."""
+    positions = ((pa - pa.mean()) * (pb - pb.mean()).conj()).sum()
+    cross = positions + 0.49 * (va * vb.conj()).sum()
+    turn = complex(cross / abs(cross))
+    return turn, complex(pa.mean() - turn * pb.mean())
+
+
+def mistake_not_centred(pa: Points, va: Points, pb: Points, vb: Points) -> object:
+    positions = (pa * pb.conj()).sum()
+    cross = positions + 0.49 * (va * vb.conj()).sum()
+    turn = complex(cross / abs(cross))
+    return turn, complex(pa.mean() - turn * pb.mean())
+
+
+def mistake_rotated_backwards(pa: Points, va: Points, pb: Points, vb: Points) -> object:
+    positions = ((pa - pa.mean()) * (pb - pb.mean()).conj()).sum()
+    cross = positions + 0.49 * (va * vb.conj()).sum()
+    turn = complex(cross / abs(cross)).conjugate()
+    return turn, complex(pa.mean() - turn * pb.mean())
+
+
+def mistake_no_velocities(pa: Points, va: Points, pb: Points, vb: Points) -> object:
+    positions = ((pa - pa.mean()) * (pb - pb.mean()).conj()).sum()
+    cross = positions + 0.0 * (va * vb.conj()).sum()
+    turn = complex(cross / abs(cross))
+    return turn, complex(pa.mean() - turn * pb.mean())
+
+
+def mistake_weight_tau(pa: Points, va: Points, pb: Points, vb: Points) -> object:
+    positions = ((pa - pa.mean()) * (pb - pb.mean()).conj()).sum()
+    cross = positions + 0.7 * (va * vb.conj()).sum()
+    turn = complex(cross / abs(cross))
+    return turn, complex(pa.mean() - turn * pb.mean())
+
+
+def mistake_weight_one(pa: Points, va: Points, pb: Points, vb: Points) -> object:
+    positions = ((pa - pa.mean()) * (pb - pb.mean()).conj()).sum()
+    cross = positions + 1.0 * (va * vb.conj()).sum()
+    turn = complex(cross / abs(cross))
+    return turn, complex(pa.mean() - turn * pb.mean())
+
+
+def mistake_mean_not_rotated(pa: Points, va: Points, pb: Points, vb: Points) -> object:
+    positions = ((pa - pa.mean()) * (pb - pb.mean()).conj()).sum()
+    cross = positions + 0.49 * (va * vb.conj()).sum()
+    turn = complex(cross / abs(cross))
+    return turn, complex(pa.mean() - pb.mean())
+
+
+def mistake_velocities_centred(pa: Points, va: Points, pb: Points, vb: Points) -> object:
+    return right_lay_group(pa, va - va.mean(), pb, vb - vb.mean())
+
+
+def mistake_not_unit_length(pa: Points, va: Points, pb: Points, vb: Points) -> object:
+    positions = ((pa - pa.mean()) * (pb - pb.mean()).conj()).sum()
+    cross = positions + 0.49 * (va * vb.conj()).sum()
+    turn = complex(cross)
+    return turn, complex(pa.mean() - turn * pb.mean())
+
+
+# ---- slots
+
+
+def draw_slots(rng: np.random.Generator) -> Arguments:
+    members = np.arange(int(rng.integers(5, 9)))
+    orders = np.tile(members, (int(rng.integers(2, 5)), 1))
+    return (rng.permuted(orders, axis=1),)
+
+
+def right_slots(orders: Indices) -> Indices:
+    return reduce(lambda slots, order: order[slots], orders)
+
+
+def mistake_members_in_slots(orders: Indices) -> object:
+    return np.argsort(right_slots(orders))
+
+
+def mistake_last_clip_first(orders: Indices) -> object:
+    return reduce(lambda slots, order: slots[order], orders)
+
+
+def mistake_clips_backwards(orders: Indices) -> object:
+    return reduce(lambda slots, order: order[slots], np.argsort(orders, axis=1))
+
+
+def mistake_last_clip_alone(orders: Indices) -> object:
+    return orders[-1]
+
+
+def mistake_first_clip_alone(orders: Indices) -> object:
+    return orders[0]
+
+
+def mistake_not_moved(orders: Indices) -> object:
+    return np.arange(orders.shape[1])
