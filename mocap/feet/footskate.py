@@ -53,7 +53,7 @@ def clean_up(
     held : for some ankles and balls where they shall stand, shape (F, 3), metres, nan where that is left
         open. All other plants are where they stand on average, or so much nearer that the leg reaches,
         or nearer to where the joint was when a knee would jolt.
-    poses : those of the motion, if `forward_kinematics` has computed them already.
+    poses : the poses of the motion in the world, if they are known already.
 
     Returns
     -------
