@@ -65,8 +65,8 @@ def body_of(motion: MotionOrPoses, pins: Pins, *, prices: Mapping[str, float] | 
     """Choose the joints that may rotate to bring constrained ones to their positions, and price them.
 
     All joints above a constrained one that rotate in the clip may rotate. The price of a radian is what it
-    moves: the squared distances of all joints below, added up (means over the clip), and `TUNED.effort`. A
-    metre of the root's moves all J joints, and costs J.
+    moves: the squared distances of all joints below, added up (means over the clip), and 1 m². A metre of the
+    root's moves all J joints, and costs J.
 
     Parameters
     ----------

@@ -54,7 +54,7 @@ def clean_up(
     held : positions of some ankles and balls while they stand, shape (F, 3), metres, NaN in frames without
         one. All other plants are at the mean of their joint's positions, or so much nearer that the leg
         reaches, or nearer to the joint in the frame in which a knee would jolt.
-    poses : those of the motion, if `forward_kinematics` has computed them already.
+    poses : the poses of the motion in the world, if they are known already.
 
     Returns
     -------
