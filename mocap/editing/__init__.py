@@ -1,4 +1,4 @@
-"""The motion itself, edited: displacement maps, pins, and the four papers that build on them.
+"""The motion itself, edited: displacement maps, constraints, and the four papers that build on them.
 
 A motion graph can only turn where its clips turn. Here a captured motion is changed: a pose is moved at a key
 [WP95], a walk is laid on another path [Gle01], a motion is worn by another body [Gle98], a foot steps on a
@@ -6,28 +6,31 @@ stone [LS99]. All four add a displacement map to a motion: a smooth curve for th
 
 Reading order (notebooks 10 to 14)
 ---------------------------------
- 1. `displacements`: what an edit adds to a motion, and the splines that keep it smooth
- 2. `turns`: how a joint is turned, as a position in metres
- 3. `pins`: where joints shall be, and for how long
- 4. `bodies`: which joints may turn, about which axes, at what price; limits, and orientations that are kept
- 5. `toes`: toes that bend so that their tips stay above the floor
- 6. `solver`: how a change may run over time; the smallest smooth one, for each frame by itself or for all
- 7. `edits`: a calm change, to the last digit; one pose, made by dragging joints; levels, from coarse to fine
- 8. `path_editing`: the path of a motion, and the motion on another path
- 9. `turning`: slower in bends, and leaning in, as people take them
-10. `line_rounding`: lines rounded where a walk would turn too fast
-11. `bending`: a walk bent to any line, with feet that stand
-12. `keys`: keys, the curve through them, and warps by offsets and by scale
-13. `retiming`: time keys, and motions at moments between their frames
-14. `warp_plans`: a whole warp from a small text file
-15. `foot_heights`: heights of ankles and balls that stand
-16. `stances`: the stance of a body, from its rest pose, a pose, or a walk
-17. `proportions`: bodies with longer or shorter limbs
-18. `retargeting`: global rotations copied to another body, and constraints for its feet
-19. `mirroring`: left and right exchanged, by names and geometry
-20. `cycles`: the best cycle of a clip, closed by a blend
-21. `travel`: the travel on the ground, removed
-22. `tuned`: the constants that trials chose
+ 1. `displacements`: displacement maps, which an edit adds to a motion, and the splines that keep them smooth
+ 2. `poses`: a motion with its joints in the world, computed once and handed on
+ 3. `boxes`: the two kinds of constraint, on positions and on rotations, with their values and Jacobians
+ 4. `pins`: constraints of both kinds together: footplants, rails, floors, limits, orientations
+ 5. `bodies`: which joints may rotate, about which axes, at what price
+ 6. `solver`: its stages; the smallest smooth change that meets constraints, for single frames or all together
+ 7. `toes`: toes that bend so that their tips stay above the floor
+ 8. `edits`: a smooth change that meets constraints exactly, with feet that stand
+ 9. `posing`: a single pose, made by dragging joints
+10. `levels`: constraints met level by level, from coarse to fine
+11. `path_editing`: the path of a motion, and the motion on another path
+12. `turning`: slower in bends, and leaning in, as people take them
+13. `line_rounding`: lines rounded where a walk would turn too fast
+14. `bending`: a walk bent to any line, with feet that stand
+15. `keys`: keys, the curve through them, and warps by offsets and by scale
+16. `retiming`: time keys, and motions at moments between their frames
+17. `warp_plans`: a whole warp from a small text file
+18. `foot_heights`: heights of ankles and balls that stand
+19. `stances`: the stance of a body, from its rest pose, a pose, or a walk
+20. `proportions`: bodies with longer or shorter limbs
+21. `retargeting`: global rotations copied to another body, and constraints for its feet
+22. `mirroring`: left and right exchanged, by names and geometry
+23. `cycles`: the best cycle of a clip, closed by a blend
+24. `travel`: the travel on the ground, removed
+25. `tuned`: the constants that trials chose
 
 References
 ----------

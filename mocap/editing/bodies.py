@@ -4,22 +4,18 @@ Only joints above a constrained one take part. The costs, called prices, and hin
 """
 
 from collections.abc import Mapping
-from itertools import combinations
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices
 from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import hinge_of
-from mocap.body.motion import Motion, rotating_joints
+from mocap.body.motion import rotating_joints
 from mocap.editing.displacements import Displacement, right_jacobian
 from mocap.editing.pins import Pins
 from mocap.editing.poses import ROOT, ROTATIONS, MotionOrPoses, Poses, WorldAxes, poses_of
 from mocap.editing.tuned import TUNED
-from mocap.errors import MocapError, warn
-
-TOLERANCE = 0.005  # metres: constraints with a smaller error cause no warning
-SLACK = 1e-6  # metres by which constraints may be farther apart than the bones between them: rounding
+from mocap.errors import MocapError
 
 SAMPLED = 20  # frames of a clip, at least, from which mean distances are taken
 
@@ -69,8 +65,8 @@ def body_of(motion: MotionOrPoses, pins: Pins, *, prices: Mapping[str, float] | 
     """Choose the joints that may rotate to bring constrained ones to their positions, and price them.
 
     All joints above a constrained one that rotate in the clip may rotate. The price of a radian is what it
-    moves: the squared distances of all joints below, added up (means over the clip), and `TUNED.effort`. A
-    metre of the root's moves all J joints, and costs J.
+    moves: the squared distances of all joints below, added up (means over the clip), and 1 m². A metre of the
+    root's moves all J joints, and costs J.
 
     Parameters
     ----------
@@ -151,74 +147,3 @@ def priced(motion: MotionOrPoses, pins: Pins, trunk: float, neck: float) -> Body
     price = body.price.copy()
     price[ROOT] *= trunk
     return body._replace(price=price)
-
-
-def require_reachable(motion: Motion, pins: Pins) -> None:
-    """Raise `MocapError` for constraints that no pose can meet.
-
-    Two boxes are at least ‖max(low₁ - high₂, low₂ - high₁, 0)‖ apart. Two joints are at most as far apart as
-    the bones between them are long together. A solver would not notice: it tears the feet off their
-    positions, and converges.
-
-    Parameters
-    ----------
-    motion, pins : F frames.
-
-    Raises
-    ------
-    MocapError : naming the frame, both joints, and both lengths.
-    """
-    skeleton = motion.skeleton
-    paths = [set(skeleton.path_to_root(joint)) for joint in pins.joints]
-    for a, b in combinations(range(len(pins.joints)), 2):
-        distances = _distances_between_boxes(pins, a, b)
-        worst = int(distances.argmax())
-        bones = sorted(paths[a] ^ paths[b])
-        reach = np.linalg.norm(skeleton.offsets[bones], axis=1).sum()
-        if distances[worst] > reach + SLACK:
-            first = skeleton.names[pins.joints[a]]
-            second = skeleton.names[pins.joints[b]]
-            request = f"'{second}' would be {distances[worst]:.2f} m from '{first}'"
-            raise MocapError(f"Frame {worst}: {request}, the bones between reach {reach:.2f} m.")
-
-
-def _distances_between_boxes(pins: Pins, a: int, b: int) -> Array:
-    """Compute the least distances (F,) between points of the boxes in columns a and b, metres."""
-    from_b_up_to_a = pins.low[:, a] - pins.high[:, b]
-    from_a_up_to_b = pins.low[:, b] - pins.high[:, a]
-    gaps = np.maximum(np.maximum(from_b_up_to_a, from_a_up_to_b), 0.0)
-    return np.asarray(np.linalg.norm(gaps, axis=1))
-
-
-def warn_of_errors(motion: Motion, pins: Pins, errors: Array, tolerance: float = TOLERANCE) -> None:
-    """Warn of the constraint with the largest error, if that is above a tolerance.
-
-    Parameters
-    ----------
-    motion, pins : F frames.
-    errors : of the motion, as from `pin_errors`, (F, P + R), metres.
-    tolerance : metres.
-
-    Examples
-    --------
-    >>> import warnings
-    >>> from mocap.datasets import sample
-    >>> from mocap.editing.pins import pin, pin_errors
-    >>> walk = sample("walk_straight")[:9]
-    >>> higher = pin(walk, "root", [5, 6], walk.root_positions[5] + [0, 0.02, 0])
-    >>> hardly = pin(walk, "root", [5], walk.root_positions[5] + [0, 0.004, 0])
-    >>> with warnings.catch_warnings(record=True, action="always") as said:
-    ...     for pins in (higher, hardly):
-    ...         warn_of_errors(walk, pins, pin_errors(walk, pins))
-    >>> print(*(warning.message for warning in said))
-    'walk_straight', frame 6: 'root' is 21.6 mm off its pin, and pins of 2 frames are missed: are they
-    within reach, and do they agree?
-    """
-    if errors.max(initial=0.0) > tolerance:
-        frame, number = np.unravel_index(errors.argmax(), errors.shape)
-        name = motion.skeleton.names[pins.indices[number]]
-        worst = f"'{name}' is {1000 * errors[frame, number]:.3g} mm off its pin"
-        frames = int((errors > tolerance).any(axis=1).sum())
-        missed = f"pins of {frames} frames are missed"
-        question = "are they within reach, and do they agree?"
-        warn(f"'{motion.name}', frame {frame}: {worst}, and {missed}: {question}")

@@ -194,7 +194,7 @@ class RotationBoxes(Boxes):
     Parameters
     ----------
     rotations : R rotations of joints, each in relation to a reference of F frames.
-    low, high : shape (F, R, 3), metres: rotation vectors times `TUNED.arm`.
+    low, high : shape (F, R, 3), metres: rotation vectors times 0.3 m.
 
     Raises
     ------

@@ -9,9 +9,9 @@ from mocap._shared.arrays import Array, runs
 from mocap._shared.records import NamedTuple
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
-from mocap.editing.bodies import Body, priced, warn_of_errors
-from mocap.editing.pins import Pins, join_pins, plant_pins
-from mocap.editing.poses import MotionOrPoses, Poses, poses_of
+from mocap.editing.bodies import Body, priced
+from mocap.editing.pins import Pins, join_pins, plant_pins, warn_of_errors
+from mocap.editing.poses import Poses, poses_of
 from mocap.editing.solver import EVERY_FRAME, Stage, closing_stages, solve
 from mocap.editing.toes import SLACK, bend_toes, lowest_allowed
 from mocap.editing.tuned import TUNED
@@ -67,9 +67,10 @@ def edit(motion: Motion, pins: Pins, *, body: Body | None = None, frames: slice 
         return motion
     source = poses_of(motion)
     edited = source
-    for window in [frames] if frames is not None else _windows(pins, motion.fps):
-        in_window = pins if frames is not None else pins.limited_to(window)
-        edited = brought(edited, source, in_window, body, window)
+    if frames is not None:
+        return brought(source, source, pins, body, frames).motion
+    for window in _windows(pins, motion.fps):
+        edited = brought(edited, source, pins.limited_to(window), body, window)
     return edited.motion
 
 
@@ -77,7 +78,7 @@ def _windows(pins: Pins, fps: float) -> list[slice]:
     """List the ranges of frames up to `TUNED.margin` from a constrained frame."""
     margin = round(TUNED.margin * fps)
     is_near = np.zeros(len(pins), bool)
-    for start, stop in runs(pins.constrained.any(axis=1)):
+    for start, stop in runs(np.asarray(pins.constrained.any(axis=1))):
         is_near[max(0, start - margin) : stop + margin] = True
     return [slice(start, stop) for start, stop in runs(is_near)]
 
@@ -118,16 +119,17 @@ def brought(
     stays[frames] = False
     plants = plant_pins(source)
     steady = plants_within(plants, source.with_frames_of(motion, stays), frames)
-    constraints = join_pins(steady, pins)
-    allowed = allowed_by(pins, source)[section.outer]
+    wanted = join_pins(steady, pins)[section.outer]
     part = motion[section.outer]
 
-    def solved_for(wanted: Pins) -> Poses:
-        prices = body or priced(motion, wanted, TUNED.trunk, TUNED.neck)  # the whole motion shows the hinges
-        return solve(part, wanted, edit_stages(), prices, quiet=True, frames=section.inner_of_outer).poses
+    def solved_for(constraints: Pins) -> Poses:
+        # The whole motion shows the hinges.
+        prices = body or priced(motion, constraints, TUNED.trunk, TUNED.neck)
+        inner = section.inner_of_outer
+        return solve(part, constraints, edit_stages(), prices, quiet=True, frames=inner).poses
 
-    wanted = constraints[section.outer]
     solved = solved_for(wanted)
+    allowed = allowed_by(pins, source)[section.outer]
     bent = solved.updated(bend_toes(solved, allowed))
     floor = floor_for(bent, plants.joints, allowed)
     if floor.errors(solved).max() > SLACK:
@@ -143,13 +145,13 @@ def edit_stages() -> tuple[Stage, ...]:
     return splines, *closing_stages()
 
 
-def plants_within(plants: Pins, motion: MotionOrPoses, frames: slice) -> Pins:
+def plants_within(plants: Pins, poses: Poses, frames: slice) -> Pins:
     """Hold feet where they were in all other frames, and in plants that reach from these into them.
 
     Parameters
     ----------
     plants : of F frames, as from `plant_pins`.
-    motion : F frames.
+    poses : F frames.
     frames : those that may change, a single range.
 
     Examples
@@ -157,16 +159,15 @@ def plants_within(plants: Pins, motion: MotionOrPoses, frames: slice) -> Pins:
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")[:240]
     >>> plants = plant_pins(walk)
-    >>> plants_within(plants, walk, slice(None)) is plants
+    >>> plants_within(plants, poses_of(walk), slice(None)) is plants
     True
-    >>> bool(plants_within(plants, walk, slice(100, 140)).held[:100].all())
+    >>> bool(plants_within(plants, poses_of(walk), slice(100, 140)).held[:100].all())
     True
     """
-    changes = np.zeros(len(motion), bool)
+    changes = np.zeros(len(poses), bool)
     changes[frames] = True
     if changes.all():
         return plants
-    poses = poses_of(motion)
     positions = poses.positions[:, list(plants.joints)]
     stays = np.repeat(~changes[:, None], len(plants.joints), axis=1)
     planted = np.asarray(plants.held.all(axis=-1))
@@ -180,12 +181,11 @@ def plants_within(plants: Pins, motion: MotionOrPoses, frames: slice) -> Pins:
     return Pins(plants.joints, low, high)
 
 
-def allowed_by(pins: Pins, motion: MotionOrPoses) -> Array:
+def allowed_by(pins: Pins, poses: Poses) -> Array:
     """Compute the lowest height allowed for each joint, (F, J), metres, as `lowest_allowed` does.
 
     If constraints require that a joint be lower, all of its limb may be as low as necessary.
     """
-    poses = poses_of(motion)
     allowed = lowest_allowed(poses)
     skeleton = poses.motion.skeleton
     for column, joint in enumerate(pins.joints):
@@ -195,17 +195,17 @@ def allowed_by(pins: Pins, motion: MotionOrPoses) -> Array:
     return allowed
 
 
-def floor_for(motion: MotionOrPoses, feet: Sequence[int], allowed: Array) -> Pins:
+def floor_for(poses: Poses, feet: Sequence[int], allowed: Array) -> Pins:
     """Keep feet, and other joints that are too low, above the heights allowed (F, J), metres."""
-    heights = poses_of(motion).positions[..., 1]
+    heights = poses.positions[..., 1]
     sinks = (heights < allowed - 2 * SLACK).any(axis=0)
     joints = sorted({*feet, *np.flatnonzero(sinks).tolist()})
-    low = np.full((len(motion), len(joints), 3), -np.inf)
+    low = np.full((len(poses), len(joints), 3), -np.inf)
     low[..., 1] = allowed[:, joints]
     return Pins(joints, low, np.full_like(low, np.inf))
 
 
-def mark_met(motion: MotionOrPoses, pins: Pins, plants: Pins) -> Poses:
+def mark_met(poses: Poses, pins: Pins, plants: Pins) -> Poses:
     """Warn of constraints that are missed, and mark of the `plants` only those that `pins` still hold.
 
     Examples
@@ -217,11 +217,10 @@ def mark_met(motion: MotionOrPoses, pins: Pins, plants: Pins) -> Poses:
     >>> with warnings.catch_warnings(action="ignore"):
     ...     for up in ([0, 0.00009, 0], [0, 0.00015, 0]):  # metres
     ...         higher = Pins(plants.joints, plants.low + up, plants.high + up)
-    ...         print(mark_met(walk, higher, plants).motion.contacts["lfoot"].sum())
+    ...         print(mark_met(poses_of(walk), higher, plants).motion.contacts["lfoot"].sum())
     52
     0
     """
-    poses = poses_of(motion)
     errors = pins.errors(poses)
     warn_of_errors(poses.motion, pins, errors, CLOSED)
     columns = [pins.joints.index(joint) for joint in plants.joints]
@@ -256,7 +255,8 @@ def clean_feet(motion: Motion, lowest: Array | None = None) -> Motion:
     >>> bool(np.ptp(heights) < 1e-9)
     True
     """
-    return raised(clean_up(motion), lowest_allowed(motion, lowest))
+    poses = poses_of(motion)
+    return raised(clean_up(motion, poses=poses.world), lowest_allowed(poses, lowest))
 
 
 def raised(motion: Motion, allowed: Array) -> Motion:
@@ -291,4 +291,4 @@ def _rise_of_plants(plants: Pins, motion: Motion, floor: Array) -> Array:
     for leg in find_legs(motion.skeleton):  # a rigid foot: both of its joints rise by as much
         foot = np.isin(plants.joints, leg)
         rise[:, foot] = np.maximum(depth[:, foot].max(axis=1, keepdims=True), 0.0)
-    return rise[..., None] * UP
+    return np.asarray(rise[..., None] * UP)

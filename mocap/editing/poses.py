@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap._shared.records import NamedTuple, dataclass
-from mocap.body.kinematics import forward_kinematics
+from mocap.body.kinematics import GlobalPoses, forward_kinematics
 from mocap.body.motion import Motion
 
 Frames = slice | Sequence[int] | NDArray[np.intp] | Mask
@@ -48,6 +48,11 @@ class Poses:
     def __getitem__(self, frames: Frames) -> "Poses":
         """Select frames by a slice, by indices or by a mask."""
         return Poses(self.motion[frames], self.positions[frames], self.matrices[frames])
+
+    @property
+    def world(self) -> GlobalPoses:
+        """The positions and matrices, as `forward_kinematics` returns them."""
+        return GlobalPoses(self.positions, self.matrices)
 
     def updated(self, motion: Motion) -> "Poses":
         """Return the poses of a changed motion; these if it is the same motion."""

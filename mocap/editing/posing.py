@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap.body.motion import Motion
-from mocap.editing.bodies import priced, require_reachable
-from mocap.editing.pins import Pins, join_pins, pin, plant_pins
+from mocap.editing.bodies import priced
+from mocap.editing.pins import Pins, join_pins, pin, plant_pins, require_reachable
 from mocap.editing.poses import MotionOrPoses, Poses, poses_of
 from mocap.editing.solver import Stage, solve
 from mocap.editing.tuned import TUNED

@@ -244,7 +244,7 @@ def retarget(motion: Motion, body: Stance, source: Stance, *, scale: float | Non
     poses = poses_of(motion)
     planted = poses
     if plant_pins(poses, source.legs).errors(poses).max() > TUNED.worn_slide:
-        planted = poses_of(clean_up(motion, source.legs))
+        planted = poses_of(clean_up(motion, source.legs, poses=poses.world))
     base = poses_of(copied(planted, source, body, scale=scale))
     positions = poses.positions
     plants = floor_pins(base, body)

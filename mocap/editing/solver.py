@@ -19,12 +19,12 @@ import numpy as np
 from scipy import sparse
 from scipy.linalg import solveh_banded
 
-from mocap._shared.arrays import Array, Mask
+from mocap._shared.arrays import Array, Indices, Mask
 from mocap._shared.records import NamedTuple, dataclass
 from mocap.body.motion import Motion
-from mocap.editing.bodies import Body, body_of, require_reachable, warn_of_errors
+from mocap.editing.bodies import Body, body_of
 from mocap.editing.displacements import displaced, spline_basis
-from mocap.editing.pins import Pins, require_pins_of
+from mocap.editing.pins import Pins, require_pins_of, require_reachable, warn_of_errors
 from mocap.editing.poses import ROTATIONS, MotionOrPoses, Poses, poses_of
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
@@ -112,6 +112,7 @@ class Solved(NamedTuple):
     Parameters
     ----------
     poses : the new motion, with its joints in the world.
+    errors : shape (F, P + R), as from `pin_errors`, metres.
     worst : the largest error at first and after each iteration, metres.
     change : shape (F, n), the numbers of the body that the last stage added.
 
@@ -119,11 +120,12 @@ class Solved(NamedTuple):
     --------
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")[:9]
-    >>> Solved(poses_of(walk), [0.02, 0.001], np.zeros((9, 13))).motion is walk
+    >>> Solved(poses_of(walk), np.zeros((9, 4)), [0.02, 0.0], np.zeros((9, 13))).motion is walk
     True
     """
 
     poses: Poses
+    errors: Array
     worst: list[float]
     change: Array
 
@@ -194,38 +196,44 @@ def solve(  # noqa: PLR0913 (a motion, constraints, how to solve, and two option
     body = body or body_of(start, pins)
     stays = np.ones(len(start), bool)
     stays[frames] = False
-    solved = Solved(start, [float(pins.errors(start).max(initial=0.0))], np.zeros((len(start), 0)))
+    errors = pins.errors(start)
+    no_change = np.zeros((len(start), len(body.price)))
+    solved = Solved(start, errors, [float(errors.max(initial=0.0))], no_change)
     for stage in _with_damping_under_bars(stages, pins):
-        poses, worst, change = _solve_stage(stage, solved.poses, pins, body, stays)
-        solved = Solved(poses, solved.worst + worst, change)
-    poses = solved.poses.with_frames_of(start, stays)
+        solved = _solve_stage(stage, solved, pins, body, stays)
     if not quiet:
-        warn_of_errors(poses.motion, pins, pins.errors(poses))
-    return solved._replace(poses=poses)
+        warn_of_errors(motion, pins, solved.errors)
+    return solved._replace(poses=solved.poses.with_frames_of(start, stays))
 
 
-def _solve_stage(stage: Stage, poses: Poses, pins: Pins, body: Body, stays: Mask) -> Solved:
-    """Solve one stage, with all frames near enough to those that change."""
-    change = np.zeros((len(poses), len(body.price)))
-    is_missed = pins.errors(poses).max(axis=1, initial=0.0) > MET
-    rows = np.flatnonzero(is_missed & ~stays) if stage.is_framewise else _window(stays)
-    if not is_missed.any() or stays.all():
-        return Solved(poses, [], change)
-    constraints = led(pins, poses, stage.lead) if stage.lead else pins
-    part = poses[rows]
-    curve = Curve(stage, len(part), part.motion.fps, body.price, stays[rows])
-    if not curve.basis.shape[1]:  # no curve of this stage leaves the frames unchanged that must stay
-        return Solved(poses, [], change)
-    last, worst = _descend(_Problem(part, constraints[rows], body, curve), stage)
-    change[rows] = last.change
-    return Solved(poses.with_part(last.poses, rows), worst, change)
+def _solve_stage(stage: Stage, last: Solved, pins: Pins, body: Body, stays: Mask) -> Solved:
+    """Solve one stage from the result of the last one, and add its errors to those."""
+    change = np.zeros_like(last.change)
+    rows = _rows(stage, last.errors, stays)
+    frames = len(stays[rows])
+    curve = Curve(stage, frames, last.motion.fps, body.price, stays[rows])
+    if not curve.basis.shape[1]:  # nothing to do, or no curve leaves the frames unchanged that must stay
+        return last._replace(change=change)
+    constraints = led(pins, last.poses, stage.lead) if stage.lead else pins
+    problem = _Problem(last.poses[rows], constraints[rows], body, curve)
+    end, worst = _descend(problem, stage)
+    change[rows] = end.change
+    poses = last.poses.with_part(end.poses, rows)
+    return Solved(poses, pins.errors(poses), last.worst + worst, change)
 
 
-def _window(stays: Mask) -> slice:
-    """Return the frames that may change, with `KEPT` frames on either side."""
+def _rows(stage: Stage, errors: Array, stays: Mask) -> slice | Indices:
+    """Return the frames that a stage solves for: none if all constraints are met.
+
+    A framewise stage solves for frames that miss a constraint, another one for all that may change, with
+    `KEPT` frames on either side.
+    """
+    is_missed = errors.max(axis=1, initial=0.0) > MET
     changes = np.flatnonzero(~stays)
-    if not len(changes):
+    if not is_missed.any() or not len(changes):
         return slice(0, 0)
+    if stage.is_framewise:
+        return np.flatnonzero(is_missed & ~stays)
     return slice(max(int(changes[0]) - KEPT, 0), int(changes[-1]) + 1 + KEPT)
 
 
@@ -301,19 +309,14 @@ class _Problem(NamedTuple):
     body: Body
     curve: "Curve"
 
-    def start(self) -> _Iterate:
-        """Return the iterate that changes nothing."""
-        c = np.zeros((self.curve.basis.shape[1], len(self.body.price)))
-        return self._evaluated(c, self.base)
-
     def evaluate(self, c: Array) -> _Iterate:
-        """Compute the iterate of control points c (K, n)."""
+        """Compute the iterate of control points c (K, n); zeros are the base itself."""
         motion = self.base.motion
-        displacement = self.body.displacement(self.curve.basis @ c, len(motion.skeleton))
-        return self._evaluated(c, poses_of(displaced(motion, displacement)))
-
-    def _evaluated(self, c: Array, poses: Poses) -> _Iterate:
         change = self.curve.basis @ c
+        poses = self.base
+        if c.any():
+            displacement = self.body.displacement(change, len(motion.skeleton))
+            poses = poses_of(displaced(motion, displacement))
         residual, jacobian = linearised(poses, self.body, change, self.pins)
         return _Iterate(c, change, poses, residual, jacobian, self.curve.cost(c, residual))
 
@@ -325,7 +328,7 @@ def _descend(problem: _Problem, stage: Stage) -> tuple[_Iterate, list[float]]:
     -------
     The last iterate, and the largest error after each iteration, metres.
     """
-    iterate = problem.start()
+    iterate = problem.evaluate(np.zeros((problem.curve.basis.shape[1], len(problem.body.price))))
     errors: list[float] = []
     damping = np.full(iterate.cost.shape, stage.damping)
     while len(errors) < stage.passes:
@@ -412,7 +415,7 @@ class Curve:
         self.weight = stage.weight
         self.price = price
         self.is_framewise = stage.is_framewise
-        if stage.knots:
+        if stage.knots and frames:
             self.basis = spline_basis(frames, stage.knots * fps)
         else:
             self.basis = sparse.eye_array(frames, format="csr")

@@ -19,7 +19,7 @@ import numpy as np
 from scipy.ndimage import binary_propagation, maximum_filter1d
 
 from mocap._shared.arrays import Array, Mask, runs
-from mocap.body.kinematics import forward_kinematics
+from mocap.body.kinematics import GlobalPoses, forward_kinematics
 from mocap.body.limbs import Leg, find_legs
 from mocap.body.motion import Motion, require_motion
 from mocap.errors import MocapError, shortened, warn
@@ -36,7 +36,11 @@ FALLS = 0.9  # Plants are moved again as long as the worst excess falls by this 
 
 
 def clean_up(
-    motion: Motion, legs: Sequence[Leg] | None = None, *, held: Mapping[int, Array] | None = None
+    motion: Motion,
+    legs: Sequence[Leg] | None = None,
+    *,
+    held: Mapping[int, Array] | None = None,
+    poses: GlobalPoses | None = None,
 ) -> Motion:
     """Make planted feet stand still, at the cost of small changes to the legs and to the hips' heights.
 
@@ -49,6 +53,7 @@ def clean_up(
     held : for some ankles and balls where they shall stand, shape (F, 3), metres, nan where that is left
         open. All other plants are where they stand on average, or so much nearer that the leg reaches,
         or nearer to where the joint was when a knee would jolt.
+    poses : the poses of the motion in the world, if they are known already.
 
     Returns
     -------
@@ -80,7 +85,7 @@ def clean_up(
     """
     require_motion(motion)
     legs = find_legs(motion.skeleton) if legs is None else legs
-    global_poses = forward_kinematics(motion)
+    global_poses = forward_kinematics(motion) if poses is None else poses
     tracks = [track_leg(motion, leg, global_poses) for leg in legs]
     pelvis = find_pelvis(motion, legs, global_poses)
     settled = settled_marks(motion, legs)
