@@ -12,7 +12,7 @@ from mocap._shared.records import NamedTuple, dataclass
 from mocap.body.ground_path import GroundPath
 from mocap.editing.path_editing import Ride, moving_frames
 from mocap.editing.tuned import TUNED
-from mocap.editing.turning import places_on
+from mocap.editing.turning import places_on, slowed_frames
 from mocap.feet.ankle_targets import bending_bands
 
 FINE = 10  # times as many points as in a rounded line, for distances from it
@@ -64,11 +64,6 @@ class _Walk:
     limit: float
 
     @cached_property
-    def turning_rates(self) -> Array:
-        """How fast the walk turns by itself, (F - 1,), radians per second."""
-        return np.diff(moving_frames(self.ride.path, self.ride.along).angle) * self.fps
-
-    @cached_property
     def radius(self) -> float:
         """The radius at which the walk turns by the limit, at its slowest, metres."""
         # v₀ q(1/r) / r = limit, with q of `turning`, solved for r.
@@ -78,13 +73,20 @@ class _Walk:
         squared = (np.sqrt(law**4 + 4 * straight**4) - law**2) / 2
         return float(max(TUNED.tightest_radius, np.sqrt(squared)))
 
+    def _rates(self, path: GroundPath, along: Array) -> Array:
+        """Compute turning rates between frames at metres along a path, (F - 1,), radians per second."""
+        return np.diff(moving_frames(path, along).angle) * self.fps
+
     def too_fast(self, line: GroundPath, metres: Array) -> Indices:
         """Find the points of a line, at `metres` along it, where the walk would turn too fast."""
         along, ratio = places_on(line, self.ride, self.fps, self.limit)
+        frames = slowed_frames(ratio)
+        numbers = np.arange(len(ratio))
+        along = np.interp(frames, numbers, along)
         along = along[along <= metres[-1]]  # a rounded line is shorter
-        clock = np.sqrt(ratio[1 : len(along)])
-        rates = np.diff(moving_frames(line, along).angle) * self.fps * clock
-        same_side = np.sign(rates) * self.turning_rates[: len(rates)] * clock
+        rates = self._rates(line, along)
+        source_along = np.interp(frames[: len(along)], numbers, self.ride.along)
+        same_side = np.sign(rates) * self._rates(self.ride.path, source_along)
         is_too_fast = np.abs(rates) > self.limit + np.maximum(same_side, 0)
         return np.unique(np.searchsorted(metres, along[1:][is_too_fast]))
 

@@ -163,6 +163,23 @@ def _ratio_within(limit: float, rate: float, speed: float, ratio: float) -> floa
     return ratio
 
 
+def slowed_frames(ratio: Array) -> Array:
+    """Compute the frames of a walk that are shown when it is slowed down, as numbers with fractions.
+
+    Parameters
+    ----------
+    ratio : shape (F,), the ratios of speeds from `places_on`. A frame lasts 1/√ratio as long.
+
+    Examples
+    --------
+    >>> slowed_frames(np.array([1.0, 0.25, 0.25])).round(2).tolist()
+    [0.0, 0.67, 1.25, 1.75]
+    """
+    durations = ratio**-0.5  # new frames per old frame
+    times = np.concatenate([[0.0], np.cumsum((durations[1:] + durations[:-1]) / 2)])
+    return np.interp(np.arange(int(times[-1] + TOLERANCE) + 1), times, np.arange(len(ratio)))
+
+
 def slow_down(motion: Motion, ride: Ride, path: GroundPath, limit: float = np.inf) -> SlowedWalk:
     """Slow a walk down for the bends of a line.
 
@@ -193,9 +210,7 @@ def slow_down(motion: Motion, ride: Ride, path: GroundPath, limit: float = np.in
     """
     places, ratio = places_on(path, ride, motion.fps, limit)
     numbers = np.arange(len(motion))
-    durations = ratio**-0.5  # new frames per old frame
-    times = np.concatenate([[0.0], np.cumsum((durations[1:] + durations[:-1]) / 2)])
-    frames = np.interp(np.arange(int(times[-1] + TOLERANCE) + 1), times, numbers)
+    frames = slowed_frames(ratio)
     source_along = np.interp(frames, numbers, ride.along)
     along = np.interp(frames, numbers, places)
     source_speed = np.interp(frames, numbers, _speed(ride.along, motion.fps))

@@ -85,6 +85,18 @@ def test_a_tighter_limit_rounds_more():
     assert np.abs(free.turned).max() > np.radians(130)
 
 
+@pytest.mark.parametrize(("name", "degrees", "end"), [("jog", 150, 0.5), ("walk_straight", 120, 0.2)])
+def test_the_limit_holds_at_a_corner_near_the_end_of_a_line(name, degrees, end):
+    """The walk is slowed to half of its speed there, so that its frames are between those of the clip."""
+    angle = np.radians(degrees)
+    line = GroundPath([[0, 0], [0, 4], [end * np.sin(angle), 4 + end * np.cos(angle)]])
+    motion = clip(name)
+    rounded = round_line(line, ride_of(motion), motion.fps, LIMIT)
+    along = slow_down(motion, ride_of(motion), rounded.path, LIMIT).along
+    rates = np.diff(moving_frames(rounded.path, along).angle) * motion.fps
+    assert 0.85 * LIMIT < np.abs(rates[along[1:] <= rounded.path.length]).max() <= 1.01 * LIMIT
+
+
 def test_who_goes_to_and_fro_is_turned_at_once_and_that_is_said():
     walk = clip("walk_straight")[:90]
     roots = walk.root_positions * [0, 1, 0]
