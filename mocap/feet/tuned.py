@@ -29,13 +29,9 @@ class Tuned:
 
     # Positions of plants
     flexion: float = 12.0  # degrees: no knee becomes straighter. At 8 straight legs jolt; 15 holds as much
-    fall: float = (
-        0.0167  # of the leg's length, fall of the root to reach a plant; beyond, the plant comes nearer
-    )
+    fall: float = 0.0167  # of the leg's length, by which the root may fall for a plant that is out of reach
     pulls: int = 4  # at most, of a plant into reach. 8 holds as many frames
-    move: float = (
-        0.5  # of the distance to its foot, by which a plant moves. At 0.25 slow walks accelerate more
-    )
+    move: float = 0.5  # of the way to its foot that a plant moves. At 0.25 slow walks accelerate more
     falls: float = 0.9  # factor of the worst excess; if moves gain less, they end
 
     # Plants that cannot be held

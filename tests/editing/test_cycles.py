@@ -129,7 +129,7 @@ def test_plants_that_are_let_go_are_told_as_a_share_of_the_cycle():
     with pytest.warns(MocapWarning) as caught:
         loop(shaken, find_loop(shaken), clean=True)
     (said,) = caught
-    assert str(said.message).startswith("'walk_straight_loop': 15% of the planted frames are let go")
+    assert str(said.message).startswith("'walk_straight_loop': 18% of the planted frames are let go")
 
 
 def test_a_clip_far_from_the_origin_has_the_same_cycle():
