@@ -29,7 +29,7 @@ from matplotlib.figure import Figure
 
 import mocap
 from mocap import datasets, editing, feet
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Indices
 from mocap.body import Motion, find_legs, joint_positions
 from mocap.body.limbs import Leg, with_roles
 from mocap.errors import MocapError
@@ -77,7 +77,7 @@ def seen_from_hips(motion: Motion) -> Array:
     return np.asarray(np.einsum("fij,fkj->fki", axes, positions - floor[:, None]))
 
 
-def moments_of(motion: Motion) -> Array:
+def moments_of(motion: Motion) -> Indices:
     """Choose frames that are evenly spread over a motion."""
     return np.linspace(0, len(motion) - 1, MOMENTS).round().astype(int)
 
@@ -209,7 +209,7 @@ def knee_sheet(clip: Motion) -> Figure:
     return figure
 
 
-def draw_leg(ax: Axes, motion: Motion, leg: Leg, frames: Array, title: str) -> None:
+def draw_leg(ax: Axes, motion: Motion, leg: Leg, frames: Indices, title: str) -> None:
     """Draw a leg in each frame from the side, with the planted joints as dots."""
     heading_frame = seen_from_hips(motion)
     joints = [*leg, *(joint for joint in joints_of_foot(motion, leg) if joint not in leg)]
