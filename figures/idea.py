@@ -40,7 +40,7 @@ HAND = """document.body.insertAdjacentHTML("beforeend", `<svg id="hand" width="3
 viewBox="0 0 30 34"><path d="M9 2c2 0 3 1 3 3v9l9 2c3 1 4 3 4 6l-1 10H11L3 20c-1-2 1-4 3-3l1 1V5c0-2 1-3 2-3z"
 fill="#fff" stroke="#2b2f3d" stroke-width="2"/></svg>`);
 Object.assign(hand.style, { position: "fixed", pointerEvents: "none" });
-for (const part of document.querySelectorAll("header p, footer")) part.style.display = "none";"""
+for (const part of document.querySelectorAll("header p, #bottom, #caption")) part.style.display = "none";"""
 MOVE = "([x, y]) => { hand.style.left = `${x - 10}px`; hand.style.top = `${y - 3}px`; }"
 
 

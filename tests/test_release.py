@@ -200,6 +200,6 @@ def test_the_wheel_alone_makes_a_walk_and_runs_a_notebook(archives, tmp_path):
     env = install(archives[1], tmp_path)
     python = env / "bin" / "python"
     call(env / "bin" / "mocap", "demo", "--seconds", "2", folder=empty)
-    assert {path.name for path in (empty / "mocap-demo").iterdir()} >= {"walk.bvh", "walk.gif"}
+    assert {path.name for path in (empty / "mocap-demo").iterdir()} >= {"walk.bvh", "walk.gif", "walk.html"}
     call(env / "bin" / "mocap", "course", "handout", "-o", "course", folder=empty)
     call(python, "-c", DEMO, folder=empty)

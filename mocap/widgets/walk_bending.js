@@ -212,6 +212,7 @@ export class Bending {
   line = null;
   along = 0; // metres on the line at the last frame
   first = 0; // the frame in which the walk began to follow the line
+  cutAt = 0; // the frame at which the walk was cut last
   /** @type {MovingFrame} from the line's start to the walk in that frame */
   offset = { heading: 0, z: 0, x: 0 };
 
@@ -264,6 +265,7 @@ export class Bending {
    * @param {number} frames
    */
   cut(frames) {
+    this.cutAt = frames;
     this.carried.length = frames;
     this.shortfalls.length = Math.min(this.shortfalls.length, frames);
     this.sinking.length = Math.min(this.sinking.length, frames);
@@ -381,6 +383,7 @@ export class Bending {
    * @param {Stance[]} open
    */
   easeBetween(n, from, closed, open) {
+    const { cutAt } = this;
     const motions = this.motions[n];
     /**
      * @param {number} start
@@ -389,6 +392,10 @@ export class Bending {
      * @param {Motion} after
      */
     const ease = (start, before, end, after) => {
+      if (cutAt > start + 1 && cutAt <= end) {
+        ease(cutAt - 1, motions[cutAt - 1], end, after); // frames that were shown stay as they were
+        return;
+      }
       for (let frame = Math.max(0, start + 1); frame < Math.min(end, this.frames); frame++) {
         const weight = smoothStep((frame - start) / (end - start));
         motions[frame] = {
@@ -398,7 +405,7 @@ export class Bending {
         };
       }
     };
-    for (let frame = from; frame < this.frames; frame++) motions[frame] = NOTHING;
+    for (let frame = Math.max(from, cutAt); frame < this.frames; frame++) motions[frame] = NOTHING;
     let last = closed;
     for (const stance of open) {
       const start = last ? last.end - 1 : Math.max(0, stance.start - FADE) - 1;

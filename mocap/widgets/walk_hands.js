@@ -78,8 +78,8 @@ export class Hands {
     canvas.addEventListener(
       "wheel",
       (event) => {
-        if (!this.stroke)
-          this.camera.hand.zoom = clampedZoom(this.camera.hand.zoom * Math.exp(event.deltaY / 900));
+        const { hand } = this.camera;
+        if (!this.stroke) hand.zoom = clampedZoom(hand.zoom * Math.exp(event.deltaY / 900));
         event.preventDefault();
       },
       { passive: false },

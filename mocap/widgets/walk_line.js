@@ -97,11 +97,10 @@ export function walkable(points) {
   const drawn = even(points, CELL_OF_LINE);
   const reach = drawn.map(() => SMOOTH / CELL_OF_LINE);
   const widest = WIDEST / CELL_OF_LINE;
-  for (let line = drawn; ;) {
-    line = threeMeans(drawn, (i) => Math.round(reach[i]));
+  while (Math.max(...reach) <= widest) {
+    const line = threeMeans(drawn, (i) => Math.round(reach[i]));
     const tight = tightPoints(line);
     if (!tight.length) return even(line, 0.01);
-    if (tight.some((i) => reach[i] > widest)) break;
     for (const i of tight) reach[i] *= 1.12;
     // Further away the reach falls slowly, so that the line has no kink.
     for (let i = 1; i < reach.length; i++) reach[i] = Math.max(reach[i], reach[i - 1] - FALL);

@@ -149,21 +149,7 @@ export class Page extends Hands {
       this.showMessage("Draw a longer line: a metre or more.");
       return;
     }
-    const { walk, line, prints, time } = this;
-    const continues = walk?.frames && walk.labels === this.bits && this.isNear(points[0]);
-    if (continues && !anew) {
-      this.previous = null;
-      this.points = this.redirect(points);
-    } else {
-      if (walk?.frames) {
-        const kind = walk.labels < 0 ? -1 : Math.log2(walk.labels);
-        this.previous = { walk, drawn: this.drawn, points: this.points, line, prints, time, kind };
-      }
-      this.points = points;
-      this.walk = new Walk(this.graph);
-      this.time = 0;
-      this.prints = [];
-    }
+    this.points = this.begin(points, anew);
     this.line = arrays(this.points);
     this.drawn = drawn;
     this.rounded = roundedBy(drawn, points);
@@ -180,6 +166,27 @@ export class Page extends Hands {
       document.body.classList.add("walking");
       this.play(true); // also where motion is reduced: the reader asks for this walk
     }
+  }
+
+  /**
+   * Begin a walk at the start of a line, or return a path from the figure onto the line if it is near.
+   * @param {number[][]} points
+   * @param {boolean} anew
+   */
+  begin(points, anew) {
+    const { walk, line, prints, time, drawn } = this;
+    if (!anew && walk?.frames && walk.labels === this.bits && this.isNear(points[0])) {
+      this.previous = null;
+      return this.redirect(points);
+    }
+    if (walk?.frames) {
+      const kind = walk.labels < 0 ? -1 : Math.log2(walk.labels);
+      this.previous = { walk, drawn, points: this.points, line, prints, time, kind };
+    }
+    this.walk = new Walk(this.graph);
+    this.time = 0;
+    this.prints = [];
+    return points;
   }
 
   /**

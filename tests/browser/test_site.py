@@ -95,7 +95,9 @@ def test_a_recorded_experiment_moves(page, tmp_path):
     ]
     nbformat.write(new_notebook(cells=cells), tmp_path / "00-one.ipynb")
     (tmp_path / "teaching").mkdir()
-    address = build_small(tmp_path, tmp_path / "out", moving=True).as_uri()
+    index = build_small(tmp_path, tmp_path / "out", moving=True)
+    assert index.name == "index.html"
+    address = index.with_name("00-one.html").as_uri()
     page.goto(address)
     slider, picture = page.get_by_label("steps taken"), page.locator(".moving img")
     wide = picture.bounding_box()["width"]

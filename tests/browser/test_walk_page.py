@@ -365,13 +365,20 @@ BACK = """([on, round]) => {
   page.play(false);
   page.walk = null;
   walk(way([0, 0], 0.3));
+  const bodies = () => [on - 1, on, on + 1].flatMap((time) => {
+    page.time = time;
+    return page.bodies()[0].positions;
+  });
+  const shown = bodies();
   page.time = on;
   const before = page.position(), back = way(before, 0.3 + round);
   walk(back);
+  const moved = bodies().map((joint, k) => Math.hypot(...joint.map((value, c) => value - shown[k][c])));
+  page.time = on;
   const places = count(page.walk.frames - on, (i) => page.positionAt(on + i));
   const steps = places.slice(1).map((place, i) => far(place, places[i]));
   const offs = places.slice(-15).map((place) => Math.min(...back.map((point) => far(place, point))));
-  return [far(places[0], before), Math.max(...steps), Math.max(...offs)];
+  return [far(places[0], before), Math.max(...moved), Math.max(...steps), Math.max(...offs)];
 }"""
 
 
@@ -380,8 +387,9 @@ def test_a_line_that_leads_back_is_walked_from_where_the_figure_is(page, file, r
     page.goto(f"file://{file}")
     page.wait_for_function("window.page?.walk.frames")
     for on in (40, 55, 70):
-        jump, step, off = page.evaluate(BACK, [on, round_])  # metres
+        jump, moved, step, off = page.evaluate(BACK, [on, round_])  # metres
         assert jump == 0
+        assert moved < 1e-3  # the body that is shown stays as it was
         assert step < 0.1  # in a frame
         assert off < 0.2  # the walk's last half second, from the reader's line
 

@@ -36,6 +36,7 @@ def test_a_demo_writes_a_walk_and_tells(clips, run):
     ]
     assert [line.split()[1] for line in told.out.splitlines() if line.startswith("wrote")] == [
         "new/walk/walk.html:",
+        "new/walk/walk.bvh",
         "new/walk/walk.gif",
     ]
     walk, table = load_save.load("new/walk/walk.bvh"), rows(told.out)
