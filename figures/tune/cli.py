@@ -127,7 +127,12 @@ TRIALS = {
     "side_states": Trial(led, (50, 4000), needs_clips=False),
     "similar_word": Trial(suggested, (0.9, 0.4, 0.5, 0.7, 0.8), needs_clips=False),
 }
-STUDY = Study(tuned, TRIALS, {}, (BUNDLED_WALKS, CAPTURED_WALKS))
+FIXED = {
+    "holds_together": "what a user may expect of a graph, which no trial tells",
+    "larger_thresholds": "a user chooses among them",
+    "proposed_frames": "a limit of the time",
+}
+STUDY = Study(tuned, TRIALS, FIXED, (BUNDLED_WALKS, CAPTURED_WALKS))
 
 if __name__ == "__main__":
     STUDY.main(__doc__)

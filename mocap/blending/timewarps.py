@@ -177,7 +177,7 @@ def bounded_spline(basis: csr_array, values: Array, low: float, high: float) -> 
     --------
     >>> points = bounded_spline(csr_array(np.eye(4)), np.array([0.0, 0, 2, 3]), low=0.5, high=1.5)
     >>> points.round(4)
-    array([-0.0833,  0.4167,  1.9167,  3.    ])
+    array([-0.1667,  0.3333,  1.8333,  3.    ])
     """
     normal = csr_array(basis.T @ basis)
     right_side = basis.T @ values

@@ -14,6 +14,7 @@ from mocap.cli.option_types import Seed, number
 from mocap.cli.options import Building
 from mocap.cli.outputs import check_out, print_rows, require_other, write_out
 from mocap.cli.stages import bar, timed_stage
+from mocap.cli.tuned import TUNED
 from mocap.cli.typed_commands import Group
 from mocap.datasets.clip_origins import Origin
 from mocap.errors import MocapError, MocapWarning, NoWalk, SkeletonMismatch, warn
@@ -156,6 +157,8 @@ def build(
     with timed_stage("describing"):
         table = graphs.summary(graph).table()
     print(table)
+    if not (whole or by_labels):
+        _propose_threshold(graph, building)
     with timed_stage("writing"):
         graphs.save(graph, out, origins)
     print_rows(wrote=out)
@@ -164,6 +167,25 @@ def build(
 
         write_graphml(graph, graphml)
         print_rows(wrote=graphml)
+
+
+def _propose_threshold(pruned: "MotionGraph", building: Building) -> None:
+    """Print how many frames larger thresholds would play, if a pruned graph plays few of its clips."""
+    from mocap.graphs.thresholds import playable_fractions  # the help needs no NumPy
+
+    frames = sum(map(len, pruned.clips))
+    played = graphs.summary(pruned).frames
+    if played >= TUNED.holds_together * frames or frames > TUNED.proposed_frames:
+        return
+    thresholds = [factor * building.threshold for factor in TUNED.larger_thresholds]
+    metres = [threshold / 100 for threshold in thresholds]
+    fractions = playable_fractions(pruned.clips, window=pruned.window, thresholds=metres).tolist()
+    larger = list(zip(thresholds, fractions, strict=True))
+    shown = ", ".join(f"{fraction:.0%} at {threshold:g}" for threshold, fraction in larger)
+    sufficient = [threshold for threshold, fraction in larger if fraction >= TUNED.holds_together]
+    advice = f"try --threshold {sufficient[0]:g}" if sufficient else "these clips hardly resemble each other"
+    at_this = f"{played / frames:.0%} of the frames at {building.threshold:g} cm"
+    print_rows(playable=f"{at_this}, {shown}: {advice}")
 
 
 @contextmanager

@@ -11,6 +11,10 @@ class Tuned:
 
     poor_seam: float = 0.06  # metres RMS. The cycles of eight walks had seams of 0.5 to 3 cm
     missed_cycle: float = 0.15  # metres. Cycles of walks miss 1 to 9 cm, a pose held before a run misses 30
+    # Thresholds are proposed for a graph that plays less of its clips. Graphs of walks play 80 % or more
+    holds_together: float = 0.5  # of the frames
+    larger_thresholds: tuple[float, ...] = (1.5, 2.0, 3.0)  # times the one that was given
+    proposed_frames: int = 20_000  # frames up to which the clips are compared again, in some seconds
     # A path of the web ends where frames are no longer as near as asked, although on average they still are.
     # With 4 / 3 CMU 02_05's punch finds two more below 6 cm. With 2 no others.
     web_threshold: float = 4 / 3  # times the threshold of `mocap find`

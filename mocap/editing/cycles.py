@@ -245,7 +245,7 @@ def seam_jolt(motion: Motion, cycle: Motion) -> float:
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")
     >>> round(seam_jolt(walk, loop(walk)), 1)
-    0.5
+    0.7
     """
     window = max(2, round(TUNED.loop_seam * motion.fps))
     seam = repeated(cycle, 2)[max(len(cycle) - window - 2, 0) : len(cycle) + 2]

@@ -139,6 +139,33 @@ def threshold_curve(
     return ThresholdCurve(values, counts, nodes, edges, frames, cost, velocity_difference)
 
 
+def playable_fractions(clips: Sequence[Motion], *, window: int, thresholds: ArrayLike) -> Array:
+    """Compute the fraction of the frames of clips that a pruned graph plays, at each of some thresholds.
+
+    Parameters
+    ----------
+    clips : the motions.
+    window : frames in a transition.
+    thresholds : shape (T,), metres.
+
+    Returns
+    -------
+    The frames in the largest strongly connected component, divided by all frames, shape (T,).
+
+    Examples
+    --------
+    >>> from mocap import body, datasets
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> playable_fractions(clips, window=10, thresholds=[0.01, 0.04]).round(2)
+    array([0.5 , 0.98])
+    """
+    values = np.asarray(thresholds, float)
+    transitions = find_transitions(clips, window=window, below=float(values.max()))
+    lengths = np.array([len(clip) for clip in clips])
+    played = [_size(lengths, transitions[transitions.cost <= value], window)[1] for value in values]
+    return np.array(played) / lengths.sum()
+
+
 def _size(lengths: Indices, transitions: Transitions, window: int) -> tuple[int, int]:
     """Return the number of nodes of a graph, and of frames in its largest strongly connected component.
 

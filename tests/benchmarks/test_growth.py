@@ -14,6 +14,7 @@ import pytest
 from mocap.blending import register
 from mocap.body import GroundPath
 from mocap.editing import retime
+from mocap.methods.groups import build_group
 from mocap.steering import walk_crowd
 from mocap.synthesis import random_walk, to_motion
 from tests.benchmarks.timing import fastest, hold
@@ -66,3 +67,8 @@ def test_a_crowd_that_crosses_one_place():
 
     print_exponent("walk_crowd", (7, 14, 28), "characters", walk, 1.5, repeats=1)
     assert min(crowd.nearest.min() for crowd in crowds.values()) >= 0.8
+
+
+def test_a_group_of_more_members():
+    """Two configurations are compared by an assignment, whose time grows with the cube of the members."""
+    print_exponent("build_group", (8, 16, 32), "members", build_group, 2, repeats=1)

@@ -1,5 +1,7 @@
 """`mocap demo`, `graph`, `walk` and `crowd`, as a person types them."""
 
+import re
+
 import numpy as np
 import pytest
 from PIL import Image
@@ -54,6 +56,17 @@ def test_a_threshold_that_leaves_no_cycle_is_told_with_one_that_does(clips, run)
     assert "at a threshold of 0.01 cm; these clips need at least" in said
     run(f"demo a.bvh b.bvh -o out --seconds 2 --no-film --threshold {float(said.split()[-2]) + 1e-6}")
     assert not (clips / "out" / "walk.gif").exists()
+
+
+def test_thresholds_are_proposed_for_a_graph_that_plays_few_of_its_frames(clips, run):
+    load_save.save(resample(samples.sample("sneak"), 30)[:300], clips / "sneak.bvh")
+    told = rows(run("graph sneak.bvh -o g.npz --threshold 0.8").out)
+    shares = [int(share) for share in re.findall(r"(\d+)%", told["playable"])]
+    assert shares == sorted(shares) and len(shares) == 4
+    assert shares[0] < 50 <= shares[-1]
+    better = re.search(r"try --threshold ([\d.]+)$", told["playable"])[1]
+    assert f"% at {better}" in told["playable"]
+    assert "playable" not in rows(run(f"graph sneak.bvh -o g.npz --threshold {better}").out)
 
 
 def test_a_graph_is_built_saved_and_told_about(clips, run):

@@ -108,7 +108,10 @@ def make_space(strides: Examples, width: float, low: float, high: float) -> Spac
     values = strides.values[:, :1]
     if len(values) < 3 or np.ptp(values) < width / 2:
         got = f"{len(values)} with a turn of {_range_text(values)}"
-        raise MocapError(f"A space takes 3 strides or more that vary, got {got}: add clips.")
+        missing = "a clip that turns to the left, and one to the right"
+        if len(values) < 3:
+            missing = f"clips that turn, with {3 - len(values)} or more strides"
+        raise MocapError(f"A space takes 3 strides or more that vary, got {got}: add {missing}.")
     targets = np.linspace(low - width, high + width, TUNED.samples)[:, None]
     weights = bell_weights(values, targets, width)
     turns = measure_mixes(strides, weights)[:, :1]

@@ -80,7 +80,9 @@ def cut_strides(
     dropped = len(candidates) - len(cuts)
     if not cuts:
         wanted = f"'{feet}' labelled '{label}'" if label else f"'{feet}'"
-        raise MocapError(f"No example of {wanted} in {len(clips)} clips; {dropped} were left out.")
+        strikes = f"{len(feet)} foot strikes in a row, and half a stride on either side"
+        left_out = f"{dropped} were left out"
+        raise MocapError(f"No example of {wanted} in {len(clips)} clips; {left_out}: add one with {strikes}.")
     if by == "curves":
         cuts = register_cuts(cuts, (0, -1))
     return _calibrated(sample_cuts(cuts, grid, dropped=dropped), steps=feet != STRIDE)
