@@ -41,7 +41,7 @@ def test_it_plays_on_unless_another_frame_is_better_by_the_bonus():
     """Without a bonus it cuts wherever a frame costs less; with a large one never."""
     cuts = []
     for bonus in (0.0, 3.0, 1e9):
-        matcher = MotionMatcher(walks(), Wants(bonus=bonus))
+        matcher = MotionMatcher(walks(), Wants(bonus=bonus, guarded=False))
         for heading in HEADINGS[:200]:
             matcher.step(heading, SPEED)
         cuts.append(len(matcher.cuts))
