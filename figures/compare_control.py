@@ -1,7 +1,7 @@
-"""Compare six ways of control by one protocol: `python figures/compare_control.py [FOLDER OF CLIPS]`.
+"""Compare ten ways of control by one protocol: `python figures/compare_control.py [FOLDER OF CLIPS]`.
 
-Writes the table `control.md` beside this script. The folder holds `hw3` and `cmu/16`; without it the bundled
-clips alone are compared. Times are CPU time of one run.
+Writes the table `control.md` beside this script. The folder holds `hw3`, `cmu/16`, `cmu/02` and
+`bvh/bandai_namco`; without it the bundled clips alone are compared. Times are CPU time of one run.
 """
 
 import gc
@@ -27,19 +27,23 @@ from mocap.methods.motion_matching.pose_database import PoseDatabase
 from mocap.quality.seam_measures import Spread
 from mocap.steering.characters import Character, Pose
 from mocap.steering.judged_control import ControlReport
+from mocap.steering.root_turning import Turnable
 
 FOLDER = Path(__file__).parent
+ABOUT_FOOT = ", turned about the foot"
+ABOUT_ROOT = ", turned about the root"
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
 CMU = (*range(11, 35), 47, 58)
+BANDAI = ("1_walk_normal", "2_walk_normal", "2_walk-turn-left_normal", "2_walk-turn-right_normal")
 SHARE = {"lrl": 1.0, "lr": 0.55, "rl": 0.55}  # a step turns by half of what a stride does, or little more
-SEEDS = range(4)  # of the commands
+SEEDS = range(3)  # of the commands
 SPACING = 0.02  # metres between the points of a path
 AHEAD = 0.8  # metres along a path: a character is led to the point that far ahead of it
 SEARCH_BACK = 0.2  # metres along a path: its nearest point is looked for that far behind the last one
 SEARCH_FORWARD = 1.5  # metres along a path: and that far ahead of the last one
 END = 0.1  # metres along a path: as near its end a character has arrived
 LONGEST = 3.0  # times the seconds that a path takes, after which it ends
-LIMITS = {"bundled clips": 75, "homework's clips": 120, "CMU 16, walks": 75}  # degrees per stride
+LIMITS = {"homework's clips": 120.0}  # degrees per stride; else 75
 
 
 def clip_sets() -> dict[str, tuple[list[mocap.Motion], float]]:
@@ -53,6 +57,10 @@ def clip_sets() -> dict[str, tuple[list[mocap.Motion], float]]:
         )
         people = [mocap.load(folder / "cmu" / "16" / f"16_{trial:02}.amc") for trial in CMU]
         sets["CMU 16, walks"] = (people, 1.1)
+        straight = [mocap.load(folder / "cmu" / "02" / f"02_{trial:02}.amc") for trial in (1, 2)]
+        sets["CMU 02, straight walks"] = (straight, 1.1)
+        walker = [folder / "bvh" / "bandai_namco" / f"dataset-{name}_001.bvh" for name in BANDAI]
+        sets["Bandai-Namco"] = ([mocap.load(path) for path in walker], 1.1)
     return {name: ([_marked(clip) for clip in clips], speed) for name, (clips, speed) in sets.items()}
 
 
@@ -102,7 +110,7 @@ def prepare_ways(name: str, clips: list[mocap.Motion]) -> tuple[dict[str, Ready]
     """Prepare every way of control, by its label; and return why some cannot be, by theirs."""
     prepared: dict[str, Ready] = {}
     refused: dict[str, str] = {}
-    for label, prepare, characters in preparations(clips, LIMITS[name]):
+    for label, prepare, characters in preparations(clips, LIMITS.get(name, 75.0)):
         begun = time.process_time()
         try:
             source, detail = prepare()
@@ -118,16 +126,32 @@ def prepare_ways(name: str, clips: list[mocap.Motion]) -> tuple[dict[str, Ready]
 def preparations(clips: list[mocap.Motion], limit: float) -> Iterator[Preparation]:
     """Yield all that is prepared from clips; strides turn by up to `limit` degrees."""
     as_it_is: Makers = {"": steering.Controller}
-    as_it_is_and_turned: Makers = {"": steering.Controller, ", turned by 40°/s": turned}
-    yield Preparation("motion graph", partial(graph, clips, 0.04), as_it_is_and_turned)
+    on_graph: Makers = {
+        "": steering.Controller,
+        ABOUT_FOOT: turned,
+        ABOUT_ROOT: about_root(steering.Controller),
+    }
+    yield Preparation("motion graph", partial(graph, clips, 0.04), on_graph)
     yield Preparation("motion graph", partial(graph, clips, 0.08), as_it_is)
 
-    by_strides = {"": parametric_graphs.ParametricController}
+    by_strides = {
+        "": parametric_graphs.ParametricController,
+        ABOUT_ROOT: about_root(parametric_graphs.ParametricController),
+    }
     yield Preparation("strides", partial(strides, clips, ("lrl",), limit), by_strides)
     yield Preparation("steps", partial(strides, clips, ("lr", "rl"), limit), by_strides)
 
-    by_matching = {f", future × {future:g}": partial(matcher, future) for future in (1.0, 0.25)}
+    by_matching: Makers = {
+        ", future × 1": partial(matcher, 1.0),
+        ", future × 0.25": partial(matcher, 0.25),
+        ABOUT_ROOT: about_root(partial(matcher, 1.0)),
+    }
     yield Preparation("matching", partial(pose_table, clips), by_matching)
+
+
+def about_root(make: Callable[[Any], Turnable]) -> Callable[[Any], Character]:
+    """Make characters that turn about their roots."""
+    return lambda source: steering.RootTurner(make(source))
 
 
 def graph(clips: list[mocap.Motion], threshold: float) -> tuple[CompiledGraph, str]:
@@ -171,12 +195,14 @@ the footplants of the clips, and the fraction of footplant frames that clean-up 
 - jolting: frames with a change of velocity above 99.9 % of those in the clips;
 - wags: the variation of the direction while a command is constant;
 - pivots: the rotation of a foot during a contact, which is the disadvantage of rotating about it;
-- step and ready: CPU times of a step, as a mean and a maximum in the fastest of four runs, and of the
+- step and ready: CPU times of a step, as a mean and a maximum in the fastest of three runs, and of the
 preparation.
 
-Values are means of four runs with different commands, ± their standard deviation. For the footplants kept
+Values are means of three runs with different commands, ± their standard deviation. For the footplants kept
 it is the minimum. Strides and steps accept only a turn as command, and have the speed of their clips. The
-centimetres of a method are its threshold. The second table of each section shows characters that follow
+centimetres of a method are its threshold. Characters that are turned about the foot (`FootTurner`) or about
+the root (`RootTurner`, with their standing feet held and their steps stretched) walk on the same clips as
+those above them. The second table of each section shows characters that follow
 five paths by commands alone (`lead`), with the mean and the largest distance from the path in metres."""
 COLUMNS = (
     "| method | response, s | 95 % | slide, cm | cleaned | footplants kept | jolting | wags | pivots | m/s "
@@ -274,7 +300,7 @@ def _nearest(along: Array, distances: Array, previous: float) -> tuple[float, fl
 
 
 def _judged(make: Callable[[], Character], usual: Spread, speed: float) -> str:
-    """Write the cells of a character: means of four runs, and of the times the least."""
+    """Write the cells of a character: means of three runs, and of the times the least."""
     reports = [steering.judge_control(make, usual, speed=speed, seed=seed) for seed in SEEDS]
     cells = [*_obeying(reports), *_feet(reports), *_moving(reports), *_step_times(reports)]
     return " | ".join(cells)

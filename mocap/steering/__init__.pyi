@@ -15,6 +15,7 @@ from .path_following import follow_path as follow_path
 from .path_objective import PathRequest as PathRequest
 from .path_objective import Settings as Settings
 from .root_turning import RootTurner as RootTurner
+from .root_turning import as_turned as as_turned
 from .waypoints_and_crowds import Waypoint as Waypoint
 from .waypoints_and_crowds import through_waypoints as through_waypoints
 from .waypoints_and_crowds import walk_crowd as walk_crowd

@@ -11,7 +11,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections import deque
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from mocap.body.motion import Motion
 from mocap.body.planar import on_ground
@@ -32,6 +32,7 @@ RISE = 0.15  # seconds in which the rate rises from 0 to the full one
 WALKING = 0.15  # m/s. A slower character goes nowhere, so it has no direction that could be wrong
 
 
+@runtime_checkable
 class Turnable(Character, Protocol):
     """A character that can be turned and moved on the ground while it walks."""
 
@@ -45,6 +46,24 @@ class Turnable(Character, Protocol):
 
     def transform_by(self, rotation: complex, translation: complex) -> None:
         """Transform what comes from now on by p ↦ rotation · p + translation, on the ground, z + ix."""
+
+
+def as_turned(character: Character) -> Character:
+    """Return a character that is turned about its root, if it can be, or else the character itself.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> from mocap.steering import Controller
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> controller = Controller(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
+    >>> turner = as_turned(controller)
+    >>> type(turner).__name__, as_turned(turner) is turner
+    ('RootTurner', True)
+
+    Notebook: 18-motion-matching
+    """
+    return RootTurner(character) if isinstance(character, Turnable) else character
 
 
 class RootTurner:

@@ -18,6 +18,7 @@ from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError, MocapWarning, shortened
 from mocap.steering.characters import Character, CommandClock, Pose, as_motion, require_command
+from mocap.steering.root_turning import as_turned
 from mocap.widgets.player import packed_body
 
 MOST = 4  # largest number of characters side by side
@@ -112,6 +113,7 @@ class Company:
     Parameters
     ----------
     characters : one to four characters, by name. Each takes its first step.
+    turned : whether those that can be are turned about their roots, see `steering.RootTurner`.
 
     Raises
     ------
@@ -130,12 +132,15 @@ class Company:
     ((15, 38, 3), 0.5, False)
     """
 
-    def __init__(self, characters: Mapping[str, Character]) -> None:
+    def __init__(self, characters: Mapping[str, Character], *, turned: bool = True) -> None:
         if not 1 <= len(characters) <= MOST:
             raise MocapError(f"One to {MOST} characters walk side by side, got {len(characters)}.")
         if len({id(character) for character in characters.values()}) < len(characters):
             raise MocapError("One character has two names, and would take two steps at once.")
-        self.members = [Member(str(name), character) for name, character in characters.items()]
+        shown = {
+            str(name): as_turned(character) if turned else character for name, character in characters.items()
+        }
+        self.members = [Member(name, character) for name, character in shown.items()]
         self.seconds = 0.0
         self.cost = 0.0  # CPU time of the last walk, ms per step of all characters
         self.notes: list[str] = []  # warnings of the last walk
@@ -156,3 +161,7 @@ class Company:
         self.cost = 1e3 * (time.thread_time() - start) / steps_taken
         self.notes = list(dict.fromkeys(str(warning.message) for warning in caught))
         return walked
+
+
+def _unchanged(character: Character) -> Character:
+    return character

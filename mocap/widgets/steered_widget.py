@@ -77,6 +77,7 @@ def steered(
     *,
     speeds: tuple[float, float] = (0.5, 1.6),
     labels: Sequence[str] = (),
+    turned: bool = True,
     alt: str = "",
 ) -> Steered:
     """Show characters side by side that the reader steers by one command, with mouse, keys or touch.
@@ -92,6 +93,8 @@ def steered(
         their current positions.
     speeds : the lowest and the highest speed that the reader can request, metres per second.
     labels : kinds of motion to choose from, as arguments of `step`, where "" permits any.
+    turned : whether characters on graphs and by motion matching are turned about their roots, with their
+        standing feet held: they obey within a second, see `steering.RootTurner`. Others stay as they are.
     alt : a sentence for readers who do not see the widget. By default it contains the names.
 
     Returns
@@ -117,7 +120,7 @@ def steered(
     low, high = (float(speed) for speed in speeds)
     if not 0 <= low < high < math.inf:
         raise MocapError(f"Speeds to ask for rise from 0 on, got {low:g} to {high:g} m/s.")
-    company = Company(characters)
+    company = Company(characters, turned=turned)
     speed = min(max(USUAL_SPEED, low), high)
     names = ", ".join(member.name for member in company.members)
     alt = alt or f"Figures obey one command: {names}."

@@ -15,6 +15,9 @@ from mocap.methods.motion_matching.pose_database import FUTURE, POSE, PoseDataba
 from mocap.steering.characters import Pose, require_command
 
 USUAL = Wants()
+# A cut must halve the cost of playing on. If no clip has the future asked for, all frames cost nearly the
+# same, and a character that takes each small gain cuts five times a second, to one moment of a stride.
+GAIN = 0.5
 BACK = (0.1, 0.6)  # seconds before now: poses of the last stride to which no cut returns
 SIMILAR = 0.1  # distance of standardised poses up to which they count as one, as of a character that stands
 HORIZON = 1.0  # seconds that the features look ahead
@@ -43,9 +46,9 @@ class MotionMatcher:
     >>> matcher = MotionMatcher(tabulate(clips))
     >>> poses = [matcher.step(heading=1.0, speed=0.8) for _ in range(15)]
     >>> poses[0].rotations.shape, matcher.frames_left, matcher.cuts
-    ((38, 4), 0, [6])
+    ((38, 4), 0, [9])
     >>> [number for number, pose in enumerate(poses) if pose.blending]  # for 0.2 s after the cut
-    [6, 7, 8, 9, 10, 11]
+    [9, 10, 11, 12, 13, 14]
     >>> [number for number, pose in enumerate(poses) if pose.contacts["rtoes"]]  # then the right ball lifts
     [0, 1]
 
@@ -155,10 +158,11 @@ class MotionMatcher:
         query[FUTURE] = foresee(table, frame, goal, self.wants.halflife)
         can_stay = frame < table.last[frame] and (not label or bool(table.motion.labels[label][frame]))
         cost_of_staying = search.cost(query, frame) - self.wants.bonus if can_stay else np.inf
-        new, cost = search.nearest(query, self._goes_on)
+        new, cost = search.nearest(query, self._goes_on if self.wants.guarded else self._is_elsewhere)
         if new < 0 and not can_stay:
             new, cost = search.nearest(query, self._is_elsewhere)
-        if cost < cost_of_staying - EQUAL:
+        gain = GAIN if self.wants.guarded else 1.0
+        if cost < gain * cost_of_staying - EQUAL:
             self._cut_to(new)
 
     def _is_elsewhere(self, frames: Indices) -> Mask:
@@ -185,6 +189,8 @@ class MotionMatcher:
         Less whatever the figure is turned in addition within the horizon, and no more than clips turn in it:
         a future that no clip has is as far from each frame, so that the character would play one pose.
         """
+        if not self.wants.guarded:
+            return bearing
         if self.rotation_rate:
             bearing = math.copysign(max(0.0, abs(bearing) - HORIZON * self.rotation_rate), bearing)
         elif abs(bearing) > SLOW * self.sharpest / HORIZON and not self._is_told:

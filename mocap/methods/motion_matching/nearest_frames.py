@@ -102,7 +102,8 @@ class Wants(NamedTuple):
     draws its velocity to the wish, `fade` (s) that of the offset after a cut. `future` multiplies the weight
     of places and directions ahead: more obeys sooner and slides more. `bonus` is by how much, as a squared
     distance of features, another frame must be better than to play on. Frames within `near` seconds of now
-    are not found.
+    are not found. A `guarded` character cuts only for half the cost, does not return into its last stride,
+    and asks for no sharper turn than its clips have: else it glides if no clip has the requested future.
 
     Examples
     --------
@@ -119,6 +120,7 @@ class Wants(NamedTuple):
     future: float = 1.0
     bonus: float = 0.0
     near: float = 0.2  # reads: name: users give it as a keyword
+    guarded: bool = True
 
 
 class FrameSearch:
