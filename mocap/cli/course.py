@@ -17,7 +17,6 @@ from mocap.course import marking
 from mocap.course.handout import hand_out
 from mocap.course.notebooks import run as run_notebook
 from mocap.course.opening import build_lite, open_course, stored
-from mocap.errors import printable
 
 Points = Annotated[Path | None, "a .toml file of lines EXERCISE = POINTS (default: 1 each)"]
 ALL_BEHIND = Parameter(consume_multiple=True, allow_leading_hyphen=True, show=False)  # even with hyphens
@@ -139,12 +138,15 @@ def mark(
     roster: Annotated[Path | None, "the .csv file of students, exported from Moodle or Canvas"] = None,
     feedback: Annotated[Path | None, "folder to write to, with an HTML page for each student"] = None,
     jobs: Annotated[int, number(1, 64, int), "number of notebooks that are marked at a time"] = 1,
-) -> None:
+) -> int:
     """Mark a folder of submitted notebooks, and write .csv files.
 
     There are four .csv files: OUT has a line for each exercise, OUT-table has a line for each student, and
-    OUT-moodle and OUT-canvas have the columns that Moodle and Canvas import. Each notebook runs in its own
-    process, with a new home folder, few environment variables, and limits of time, memory, processes and
+    OUT-moodle and OUT-canvas have the columns that Moodle and Canvas import. The column "note" of OUT is for
+    the teacher alone: it names what a solution uses by which an answer could have been taken over, and
+    changes no mark. The last line accounts for all that was handed in, and for students of the roster who
+    handed in nothing. The exit status is 2 if a person has to look at something. Each notebook runs in its
+    own process, with a new home folder, few environment variables, and limits of time, memory, processes and
     files. The first line of the output reports the isolation on this system: whether a notebook can read or
     write files outside Python and its home folder, and whether it has a network. If you do not trust the
     submissions, first read "Hand out, and mark" in notebooks/README.md.
@@ -160,7 +162,7 @@ def mark(
     """
     marking.walls.require_sealing()  # before anything is read
     worth = marking.grades.read_points(points)
-    students = marking.grades.read_roster(roster)
+    students = marking.rosters.read_roster(roster)
     require_writable(out)
     marks: list[marking.grades.Mark] = []
     grades: list[marking.grades.Grade] = []
@@ -169,12 +171,13 @@ def mark(
         grades = marking.grades.grade(marks, worth, students)
         for end, text in marking.grades.tables(marks, grades, worth, out.stem).items():
             write_file(out.with_stem(f"{out.stem}{end}"), text)  # before the next notebook runs
-    if unknown := [grade.sent for grade in grades if students and not grade.listed]:
-        print(f"not in {roster}: {printable(', '.join(unknown))}", file=sys.stderr)
     if feedback:
         print(f"wrote {len(marking.grades.write_feedback(grades, worth, feedback))} pages to {feedback}")
     right = sum(mark.right for mark in marks)
-    print(f"wrote {out} and three more: {right} of {len(marks)} are right")
+    print(f"wrote {out} and three more: {right} of {sum(bool(mark.exercise) for mark in marks)} are right")
+    said, needs_person = marking.grades.account(marks, grades)
+    print(said, file=sys.stderr)
+    return 2 if needs_person else 0
 
 
 def run(notebooks: Sequence[Path] = ()) -> None:

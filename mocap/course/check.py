@@ -213,7 +213,8 @@ class Check:
         """Raise an AssertionError that says what is wrong, for nbgrader, which takes warnings for errors."""
         with redirect_stderr(io.StringIO()):
             verdict = self.verdict(function)
-        assert verdict.right, verdict
+        if not verdict.right:
+            raise AssertionError(verdict)
 
     def verdict(self, function: Function, seed: int = 0) -> Verdict:
         """Try a function on random input, and report what is wrong with it, if anything is.

@@ -4,7 +4,12 @@ from __future__ import annotations
 
 import re
 
-from docutils.utils.math.latex2mathml import tex2mathml
+from mocap.errors import missing
+
+try:
+    from docutils.utils.math.latex2mathml import tex2mathml
+except ImportError as error:
+    raise missing("Formulas on slides need docutils, which is not installed", "slides") from error
 
 # What the converter does not know.
 OTHERWISE = {"°": r"^\circ ", r"\dots": r"\ldots", r"\big": "", r"\Big": ""}
@@ -33,8 +38,8 @@ def to_mathml(formula: str, *, block: bool = False) -> str:
       <mi>θ</mi>
     </math>
     """
-    for unknown, known in OTHERWISE.items():
-        formula = formula.replace(unknown, known)
+    for command, replacement in OTHERWISE.items():
+        formula = formula.replace(command, replacement)
     drawn = DOTTED.sub(r"<msub><mover>\1\3</mover>\2</msub>", tex2mathml(formula, as_block=block))
     drawn = CLOSING.sub(r'\1 stretchy="false"\2', drawn)
     return AFTER.sub(THIN, BEFORE.sub(rf"\1{THIN}", drawn))

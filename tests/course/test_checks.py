@@ -1,6 +1,7 @@
 """Checks of exercises: the right answer passes, and each typical mistake gets its own hint."""
 
 import ast
+import inspect
 import re
 import tomllib
 from copy import copy
@@ -155,3 +156,11 @@ def test_a_wrong_number_is_told_beside_the_right_one():
 )
 def test_what_counts_as_the_same(same, given, wanted, right):
     assert same(given, wanted) is right
+
+
+def test_a_wrong_function_is_refused_for_nbgrader_also_without_assertions():
+    """`python -O` leaves out assertions."""
+    assert DOUBLE.require(lambda x: 2 * x) is None
+    with pytest.raises(AssertionError, match="✗ double: That is the square"):
+        DOUBLE.require(lambda x: x * x)
+    assert "assert " not in inspect.getsource(Check.require)

@@ -2,6 +2,7 @@
 
 import json
 import os
+import subprocess
 import sys
 from pathlib import Path
 
@@ -89,6 +90,18 @@ def test_without_a_library_one_sentence_says_what_to_install(
     monkeypatch.setitem(sys.modules, missing, None)
     monkeypatch.setattr("subprocess.Popen", None)  # nor is anything started
     assert f'pip install ".[{extra}]"' in run(line, 2).err
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("line", ["course slides -o out", "course film 06-pruning.ipynb -o out.mp4"])
+def test_without_docutils_one_sentence_says_what_to_install(line, tmp_path):
+    code = (
+        f"import sys; sys.modules['docutils'] = None; from mocap.cli.main import main; main({line.split()})"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=tmp_path
+    )
+    assert 'pip install ".[slides]"' in done.stderr and len(done.stderr.splitlines()) == 1
     assert list(tmp_path.iterdir()) == []
 
 

@@ -6,15 +6,18 @@ text, arrays, lists, tuples, sets, dicts. So whatever a notebook changes, it cha
 
 Reading order
 -------------
-1. `cells`: what the course asks for, and the cells of a notebook that an exercise needs
-2. `plain_data`: answers as JSON, so that nothing in them can run
-3. `student`: the student's side: run cells, call functions
-4. `call_filter`: a program for the kernel that refuses system calls
-5. `walls`: what the kernel keeps from that process
-6. `keeper`: the start of that process, and the end of all that it started
-7. `sealed`: the marker's side: start, ask, stop in time
-8. `grades`: points, tables for spreadsheets, Moodle and Canvas, and a page for each student
-9. `marks`: judge each exercise of each notebook
+1. `hand_ins`: the notebooks in folders and archives, and what is no notebook
+2. `cells`: what the course asks for, and the cells of a notebook that an exercise needs
+3. `notes`: what a notebook uses by which an answer could have been taken over, for the teacher
+4. `plain_data`: answers as JSON, so that nothing in them can run
+5. `student`: the student's side: run cells, call functions
+6. `call_filter`: a program for the kernel that refuses system calls
+7. `walls`: what the kernel keeps from that process
+8. `keeper`: the start of that process, and the end of all that it started
+9. `sealed`: the marker's side: start, ask, stop in time
+10. `rosters`: who the students are
+11. `grades`: points, tables for spreadsheets, Moodle and Canvas, the closing account, and feedback
+12. `marks`: judge each exercise of each notebook
 """
 
 from mocap._shared import faces

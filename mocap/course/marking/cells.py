@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from mocap.course.check import Check
 from mocap.course.notebooks import names_of, read, tagged
 
-ORACLES = (
-    r"\bchecks\b(?!\.\w+\()|[.'\"](?:truth|mistakes|stand_in|get_objects|modules|_getframe)\b"
-    r"|\b(?:all_checks|lab\.own\s+import|lab\.slots|mine\(\s*['\"]|exec\(|eval\(|getsource|importlib|__(?:import|dict|globals|builtins|closure)__)"
+INSTALL = re.compile(
+    r"^([ \t]*)(?:[%!].*\b(?:pip3?|conda|mamba|uv)\b.*|(?:pip3?|conda|mamba)[ \t]+)\binstall\b.*$",
+    re.MULTILINE,
 )
-"""Ways to a right answer: a check that is not just called, its parts, and what can hide such names."""
+"""A command of a notebook that installs packages, and the space before it."""
 
+COMMAND = re.compile(r"^([ \t]*)[%!?].*$", re.MULTILINE)  # a command of IPython
 
 STUB = re.compile(r"(^|\s)\.\.\.[ \t]*(#.*)?$", re.MULTILINE)  # a line that ends as stubs do
 
@@ -32,7 +32,7 @@ class Cell(NamedTuple):
 
 
 def code_cells(notebook: Any) -> list[Cell]:  # noqa: ANN401
-    """List the cells of code of a notebook, but for those that install something: there is no network.
+    """List the cells of code of a notebook, without the lines that install something: there is no network.
 
     Examples
     --------
@@ -42,14 +42,40 @@ def code_cells(notebook: Any) -> list[Cell]:  # noqa: ANN401
     [Cell(exercises=('speed',), source='def speed(): ...')]
     """
     named = list(tagged(notebook, "exercise"))
-    cells = [cell for cell in notebook.cells if cell.cell_type == "code" and "pip install" not in cell.source]
-    return [Cell(tuple(name for name, own in named if own is cell), cell.source) for cell in cells]
+    listed = []
+    for cell in notebook.cells:
+        if cell.cell_type == "code":
+            exercises = tuple(name for name, exercise in named if exercise is cell)
+            listed.append(Cell(exercises, without_installs(cell.source)))
+    return listed
+
+
+def without_installs(source: str) -> str:
+    r"""Replace the commands that install packages by `pass`; the rest of the cell stays.
+
+    Examples
+    --------
+    >>> without_installs("%pip install -q seaborn\nx = 1  # I had to pip install it")
+    'pass\nx = 1  # I had to pip install it'
+    """
+    return INSTALL.sub(r"\1pass", source)
+
+
+def without_commands(source: str) -> str:
+    r"""Replace the commands of IPython by `pass`, so that a cell can be read as Python.
+
+    Examples
+    --------
+    >>> without_commands("%matplotlib inline\nx = 7 % 3")
+    'pass\nx = 7 % 3'
+    """
+    return COMMAND.sub(r"\1pass", source)
 
 
 def course_sheets(folder: Path) -> list[Sheet]:
     """Read what each notebook of the course asks for."""
-    course = [read(file) for file in sorted(folder.glob("*.ipynb"))]
-    return [(tuple(name for name, _ in tagged(one, "exercise")), _traits(one)) for one in course]
+    notebooks = [read(file) for file in sorted(folder.glob("*.ipynb"))]
+    return [(tuple(name for name, _ in tagged(sheet, "exercise")), _traits(sheet)) for sheet in notebooks]
 
 
 def sheet_of(notebook: Any, sheets: Iterable[Sheet]) -> Sheet:  # noqa: ANN401
@@ -64,7 +90,8 @@ def sheet_of(notebook: Any, sheets: Iterable[Sheet]) -> Sheet:  # noqa: ANN401
     >>> sheet_of(new_notebook(), [(("speed",), frozenset(["exercise:speed"]))])
     ((), frozenset())
     """
-    traits, nothing = _traits(notebook), ((), frozenset[str]())
+    traits = _traits(notebook)
+    nothing: Sheet = ((), frozenset())
     return max([nothing, *sheets], key=lambda sheet: len(sheet[1] & traits))
 
 
@@ -98,46 +125,25 @@ def needed(cells: Sequence[Cell], exercise: str, plain: Callable[[str], str] = s
     >>> needed(cells, "f"), needed(cells[:1], "g")
     ([0, 1], [])
     """
-    known = [names_of(plain(cell.source)) for cell in cells]
-    written = re.compile(rf"^(def {exercise}\b|{exercise} = lambda\b)", re.MULTILINE)
-    own = [n for n, cell in enumerate(cells) if exercise in cell.exercises or written.search(cell.source)]
-    left = [n for n in own if not STUB.search(cells[n].source)] or own
-    left = left or [number for number, (defined, _) in enumerate(known) if exercise in defined]
-    found: set[int] = set()
-    while left:
-        number = left.pop()
-        if number not in found:
-            found.add(number)
-            for name in known[number][1]:
-                at = [other for other, (defined, _) in enumerate(known) if name in defined]
-                left += [other for other in at if other < number] or at
-    return sorted(found)
+    names = [names_of(plain(cell.source)) for cell in cells]
+    start = re.compile(rf"^(def {exercise}\b|{exercise} = lambda\b)", re.MULTILINE)
+    tagged_or_defining = [
+        number for number, cell in enumerate(cells) if exercise in cell.exercises or start.search(cell.source)
+    ]
+    finished = [number for number in tagged_or_defining if not STUB.search(cells[number].source)]
+    waiting = finished or tagged_or_defining or _defining(names, exercise)
+    numbers: set[int] = set()
+    while waiting:
+        number = waiting.pop()
+        if number not in numbers:
+            numbers.add(number)
+            _, used = names[number]
+            for name in used:
+                cells_with_name = _defining(names, name)
+                waiting += [earlier for earlier in cells_with_name if earlier < number] or cells_with_name
+    return sorted(numbers)
 
 
-def named_oracle(cells: Sequence[Cell], check: Check, course: Collection[str]) -> str:
-    r"""Find what could have given a right answer away: part of a check, or a function that the check calls.
-
-    Only the notebook's own cells count: those of the exercise, and those of no exercise that are not in
-    `course`, the traits of the course's notebook.
-
-    Returns
-    -------
-    The first such words, or "".
-
-    Examples
-    --------
-    >>> from mocap.course import checks
-    >>> cells = [Cell(("hamilton",), "def hamilton(a, b): return rotations.multiply(a, b)")]
-    >>> named_oracle(cells, checks.hamilton, ())
-    'multiply'
-    """
-    own = "\n".join(
-        cell.source
-        for cell in cells
-        if check.name in cell.exercises or not (cell.exercises or cell.source.strip() in course)
-    )
-    solution = "\n".join(text for text in course if f"def {check.name}(" in text)  # may call some of them
-    functions = [name for name in check.oracles if f"{name}(" not in solution and f"def {name}(" not in own]
-    called = rf"|\b(?:{'|'.join(functions)})(?=\s*\()" if functions else ""
-    found = re.search(ORACLES + called, re.sub(r"(?m)^from mocap\.course import [\w, ]+$", "", own))
-    return found[0] if found else ""
+def _defining(names: Sequence[tuple[set[str], set[str]]], name: str) -> list[int]:
+    """List the cells that define a name."""
+    return [number for number, (defined, _) in enumerate(names) if name in defined]

@@ -6,32 +6,46 @@ import csv
 import io
 import re
 import tomllib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from pathlib import Path
 from string import Template
-from typing import Any, NamedTuple
 
 from mocap._shared.atomic import make_folder, write_file
+from mocap._shared.records import NamedTuple
 from mocap.course.checks import all_checks
-from mocap.errors import MocapError
+from mocap.course.marking.hand_ins import Student, sent_by
+from mocap.course.marking.rosters import CANVAS, MOODLE, Roster, Row, lines_of, match, name_of, read_table
+from mocap.errors import MocapError, printable
 
 LONGEST = 300  # characters of a cell
 FORMULA = ("=", "+", "-", "@", "\t")  # how cells begin that a spreadsheet computes
-MOODLE = ("Identifier", "Full name", "Email address", "Last modified (grade)")
-CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
-NAMES = {*MOODLE[:3], *CANVAS[:4], "Username", "ID number"}  # columns that say who a student is
-SENT = re.compile(r"(.+?)_(?:LATE_)?(\d+)_(?:assignsubmission_|\d+_).*", re.DOTALL)
-"""How Moodle and Canvas call what was handed in: NAME_NUMBER_assignsubmission_…, and NAME_NUMBER_NUMBER_…"""
 PAGE = Template(Path(__file__).with_name("feedback.html").read_text("utf-8"))
 
+NO_NOTEBOOK = "not a notebook"
+NO_EXERCISE = "no exercise of the course"
+NOTHING = "nothing handed in"
+AMBIGUOUS = "ambiguous in the roster"
+NOT_LISTED = "not in the roster"
+UNKNOWN = "exercises that this version does not know"
+PROBLEMS = (NO_NOTEBOOK, NO_EXERCISE, NOTHING, AMBIGUOUS, NOT_LISTED, UNKNOWN)
+"""What a person has to look at, in the order of the closing account."""
 
-Points = Mapping[str, float]  # of exercises, by their names; 1 for those that are missing
-Roster = Sequence[Mapping[str, str]]  # a line for each student, by the names of the columns
+Points = Mapping[str, float]
+"""Of exercises, by their names; 1 for those that are missing."""
 
 
 class Mark(NamedTuple):
-    """The mark of an exercise: whose notebook, which exercise, right or not, and what the check said.
+    """The mark of an exercise.
+
+    Attributes
+    ----------
+    handed_in : the path of the notebook.
+    exercise : its name; "" for what is said of a notebook as a whole.
+    right : whether the answer is right.
+    said : what the check said, for the student.
+    note : for the teacher alone.
+    problem : one of `PROBLEMS`, or "".
 
     Examples
     --------
@@ -43,6 +57,8 @@ class Mark(NamedTuple):
     exercise: str
     right: bool
     said: str
+    note: str = ""
+    problem: str = ""
 
 
 class Grade(NamedTuple):
@@ -50,16 +66,16 @@ class Grade(NamedTuple):
 
     Attributes
     ----------
-    sent : the folder or file that was handed in.
-    known : the columns of Moodle and Canvas that say who it is.
-    listed : whether the roster has the student.
+    sent : the folder or file that was handed in; "" if nothing was.
+    columns : the columns of Moodle and Canvas that say who it is.
+    problem : one of `PROBLEMS`, or "".
     best : the best mark of each exercise; at "" what was said of a notebook as a whole.
     points : of all exercises.
     """
 
     sent: str
-    known: Mapping[str, str]
-    listed: bool
+    columns: Mapping[str, str]
+    problem: str
     best: Mapping[str, Mark]
     points: float
 
@@ -69,60 +85,20 @@ def read_points(file: Path | None) -> dict[str, float]:
 
     Raises
     ------
-    MocapError : where the file cannot be read, names what is no exercise, or gives no number.
+    MocapError : if the file cannot be read, names what is no exercise, or gives no number.
 
     Examples
     --------
     >>> read_points(None)
     {}
     """
-    table = _read(file, tomllib.loads) if file else {}
-    for name, worth in table.items():
-        if name not in all_checks() or type(worth) not in (int, float) or not 0 <= worth < 1e6:
-            raise MocapError(f"{file}: '{name:.40}' is no exercise, or {f'{worth}':.40} no number of points.")
+    table: dict[str, float] = read_table(file, tomllib.loads) if file else {}
+    for name, points in table.items():
+        if name not in all_checks() or type(points) not in (int, float) or not 0 <= points < 1e6:
+            raise MocapError(
+                f"{file}: '{name:.40}' is no exercise, or {f'{points}':.40} no number of points."
+            )
     return table
-
-
-def read_roster(file: Path | None) -> list[dict[str, str]]:
-    """Read who the students are from a .csv file that Moodle or Canvas has written.
-
-    Raises
-    ------
-    MocapError : where the file cannot be read, or none of its columns says who a student is.
-
-    Examples
-    --------
-    >>> read_roster(None)
-    []
-    """
-    lines = _read(file, lambda text: [*csv.reader(io.StringIO(text))]) if file else [[*CANVAS]]
-    if not NAMES & {*(lines or [[]])[0]}:
-        raise MocapError(
-            f"{file}: no column such as 'Email address' or 'SIS Login ID' says who students are."
-        )
-    return [dict(zip(lines[0], line, strict=False)) for line in lines[1:]]
-
-
-def _read(file: Path, parse: Callable[[str], Any]) -> Any:  # noqa: ANN401
-    try:
-        return parse(file.read_text("utf-8-sig"))
-    except (OSError, ValueError, csv.Error) as error:
-        raise MocapError(f"{file}: cannot be read ({error})."[:200]) from error
-
-
-def sent_by(handed_in: str) -> tuple[str, str]:
-    """Give the name of who handed a file in, and the number in Moodle or Canvas, if any.
-
-    Examples
-    --------
-    >>> sent_by("ada/02.ipynb"), sent_by("Ada Lovelace_815_assignsubmission_file/02.ipynb")
-    (('ada', ''), ('Ada Lovelace', '815'))
-    >>> sent_by("lovelaceada_LATE_815_4711_02-matching.ipynb")
-    ('lovelaceada', '815')
-    """
-    sent = handed_in.split("/")[0]
-    found = SENT.fullmatch(sent)
-    return (found[1], found[2]) if found else (sent.removesuffix(".ipynb"), "")
 
 
 def grade(marks: Iterable[Mark], points: Points, roster: Roster = ()) -> list[Grade]:
@@ -134,33 +110,43 @@ def grade(marks: Iterable[Mark], points: Points, roster: Roster = ()) -> list[Gr
     points : from `read_points`.
     roster : from `read_roster`; a student is found there by the number or by one of the names.
 
+    Returns
+    -------
+    The grades of those who handed something in, then of those in the roster who did not: 0 for each exercise.
+
     Examples
     --------
     >>> grade([Mark("ada/00.ipynb", "speed", True, "")], {"speed": 2})[0].points
     2
     """
-    all_best: dict[tuple[str, str], dict[str, Mark]] = {}
+    all_best: dict[Student, dict[str, Mark]] = {}
+    exercises: dict[str, None] = {}
     for mark in marks:
         best = all_best.setdefault(sent_by(mark.handed_in), {})
+        exercises[mark.exercise] = None
         if mark.right or mark.exercise not in best:
             best[mark.exercise] = mark
-    grades = []
-    for (name, number), best in all_best.items():
-        row = next((row for row in roster if (number or name.casefold()) in _names(row, number)), {})
-        known = {"Identifier": f"Participant {number}" * bool(number), "Full name": name, "Student": name}
-        known |= {"ID": number, "SIS Login ID": "" if number else name, "Email address": name * ("@" in name)}
-        total = sum(points.get(exercise, 1) * mark.right for exercise, mark in best.items())
-        sent = next(iter(best.values())).handed_in.split("/")[0]
-        grades.append(Grade(sent, known | {**row}, bool(row), best, round(total, 4)))
-    return grades
+    rows = match(all_best, roster)
+    grades = [_grade_of(student, best, rows[student], points) for student, best in all_best.items()]
+    if not roster:
+        return [graded._replace(problem="") for graded in grades]
+    fitting = {line for student in all_best for line in lines_of(student, roster)}
+    missing = [row for line, row in enumerate(roster) if line not in fitting]
+    nothing = {name: Mark("", name, False, f"✗ {name}: not handed in.") for name in exercises if name}
+    return grades + [Grade("", {"Student": name_of(row), **row}, NOTHING, nothing, 0) for row in missing]
 
 
-def _names(row: Mapping[str, str], number: str) -> list[str]:
-    """List the numbers of a student in a roster, or else the names, with those of e-mail addresses."""
-    if number:
-        return re.findall(r"\d+", row.get("Identifier", "") or row.get("ID", ""))
-    names = [row.get(column, "").casefold() for column in NAMES]
-    return [*names, *(name.split("@")[0] for name in names)]
+def _grade_of(student: Student, best: Mapping[str, Mark], row: Row | None, points: Points) -> Grade:
+    """Sum up the marks of a student, whose line in the roster is empty or None if there is none."""
+    name, number = student
+    columns = {"Full name": name, "Student": name, "ID": number}
+    columns["Identifier"] = f"Participant {number}" if number else ""
+    columns["SIS Login ID"] = "" if number else name
+    columns["Email address"] = name if "@" in name else ""
+    problem = AMBIGUOUS if row is None else "" if row else NOT_LISTED
+    total = sum(points.get(exercise, 1) for exercise, mark in best.items() if mark.right)
+    sent = next(iter(best.values())).handed_in.split("/")[0]
+    return Grade(sent, columns | {**(row or {})}, problem, best, round(total, 4))
 
 
 def tables(marks: Sequence[Mark], grades: Sequence[Grade], points: Points, title: str = "") -> dict[str, str]:
@@ -179,29 +165,45 @@ def tables(marks: Sequence[Mark], grades: Sequence[Grade], points: Points, title
     Examples
     --------
     >>> marks = [Mark("=ada/00.ipynb", "speed", True, "✓ speed: right on 40 random inputs.")]
-    >>> made = tables(marks, grade(marks, {"speed": 2}), {"speed": 2})
-    >>> print(made[""] + made["-table"])
-    handed in,exercise,right,said
-    '=ada/00.ipynb,speed,1,✓ speed: right on 40 random inputs.
+    >>> texts = tables(marks, grade(marks, {"speed": 2}), {"speed": 2})
+    >>> print(texts[""] + texts["-table"])
+    handed in,exercise,right,said,note
+    '=ada/00.ipynb,speed,1,✓ speed: right on 40 random inputs.,
     student,speed,points
     '=ada,2,2
     """
     worth = {mark.exercise: points.get(mark.exercise, 1) for mark in marks if mark.exercise}
-    rows = [[w * one.best[n].right if n in one.best else "" for n, w in worth.items()] for one in grades]
-    made: dict[str, list[tuple[object, ...]]] = {
-        "": [(mark.handed_in, mark.exercise, int(mark.right), mark.said) for mark in marks],
-        "-table": [(one.known["Student"], *row, one.points) for one, row in zip(grades, rows, strict=True)],
-        "-moodle": [(*map(one.known.get, MOODLE), one.points) for one in grades],
-        "-canvas": [(*map(one.known.get, CANVAS), one.points) for one in grades],
-    }
-    made[""].insert(0, ("handed in", "exercise", "right", "said"))
-    made["-table"].insert(0, ("student", *worth, "points"))
-    made["-moodle"].insert(0, (*MOODLE, "Grade"))
-    made["-canvas"][:0] = [(*CANVAS, title), ("Points Possible", *4 * [""], round(sum(worth.values()), 4))]
-    texts = {end: io.StringIO() for end in made}
-    for end, text in texts.items():
-        csv.writer(text, lineterminator="\n").writerows(map(_cell, row) for row in made[end])
-    return {end: text.getvalue() for end, text in texts.items()}
+    texts = {"": _text(("handed in", "exercise", "right", "said", "note"), map(_line, marks))}
+    texts["-table"] = _text(("student", *worth, "points"), [_points_of(student, worth) for student in grades])
+    texts["-moodle"] = _text((*MOODLE, "Grade"), [_line_of(student, MOODLE) for student in grades])
+    possible = ("Points Possible", *[""] * (len(CANVAS) - 1), round(sum(worth.values()), 4))
+    texts["-canvas"] = _text((*CANVAS, title), [possible, *(_line_of(student, CANVAS) for student in grades)])
+    return texts
+
+
+def _line(mark: Mark) -> tuple[object, ...]:
+    return mark.handed_in, mark.exercise, int(mark.right), mark.said, mark.note
+
+
+def _points_of(student: Grade, worth: Points) -> tuple[object, ...]:
+    """Return the name of a student, the points of each exercise, and their sum."""
+    points: list[object] = []
+    for name, possible in worth.items():
+        mark = student.best.get(name)
+        earned = possible if mark and mark.right else 0
+        points.append(earned if mark else "")
+    return student.columns["Student"], *points, student.points
+
+
+def _line_of(student: Grade, columns: Sequence[str]) -> tuple[object, ...]:
+    return *map(student.columns.get, columns), student.points
+
+
+def _text(header: Sequence[object], rows: Iterable[Sequence[object]]) -> str:
+    """Write the text of a .csv file."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(map(_cell, row) for row in (header, *rows))
+    return text.getvalue()
 
 
 def _cell(value: object) -> object:
@@ -214,6 +216,28 @@ def _cell(value: object) -> object:
     return f"'{line}" if line.startswith(FORMULA) or value.startswith(FORMULA) else line
 
 
+def account(marks: Sequence[Mark], grades: Sequence[Grade]) -> tuple[str, bool]:
+    """Return a closing account of all that was handed in, and whether a person has to look at something.
+
+    Examples
+    --------
+    >>> marks = [Mark("ada/1.ipynb", "speed", True, ""), Mark("bob/", "", False, "", "hw.py", NO_NOTEBOOK)]
+    >>> account(marks, grade(marks, {}))
+    ('2 folders and files: 1 marked; not a notebook: bob (hw.py)', True)
+    """
+    listed: dict[str, dict[str, None]] = {problem: {} for problem in PROBLEMS}
+    for mark in (mark for mark in marks if mark.problem):
+        sent = mark.handed_in.split("/")[0]
+        listed[mark.problem][f"{sent} ({mark.note})" if mark.note else sent] = None
+    for student in (student for student in grades if student.problem):
+        listed[student.problem][student.sent or student.columns["Student"]] = None
+    students = {sent_by(mark.handed_in) for mark in marks}
+    marked = {sent_by(mark.handed_in) for mark in marks if mark.exercise and not mark.handed_in.endswith("/")}
+    parts = [f"{problem}: {printable(', '.join(names))}" for problem, names in listed.items() if names]
+    text = "; ".join([f"{len(students)} folders and files: {len(marked)} marked", *parts])
+    return text, bool(parts)
+
+
 def write_feedback(grades: Iterable[Grade], points: Points, folder: Path) -> list[Path]:
     """Write a page for each student: what the check of each exercise said, its points, and their sum.
 
@@ -221,21 +245,26 @@ def write_feedback(grades: Iterable[Grade], points: Points, folder: Path) -> lis
     """
     make_folder(folder)
     files: list[Path] = []
-    for one in grades:
-        most = {name: points.get(name, 1) if name else 0 for name in one.best}
-        parts = [f"<p><b>{one.points:g} of {sum(most.values()):g}</b>All points</p>"]
-        for name, mark in one.best.items():
-            earned = f"<b>{most[name] * mark.right:g} of {most[name]:g}</b>" * bool(name)
-            said = mark.said.removeprefix(f"✗ {name}: ").removeprefix(f"✓ {name}: ")
-            parts += [
-                f"<h2>{earned}{'✓' if mark.right else '✗'} {escape(name)}</h2>",
-                f"<p>{escape(said)}</p>",
-            ]
-        title = escape(one.known.get("Full name") or one.known["Student"])
-        start = re.sub(r"[^\w .@-]", "-", one.sent).lstrip(".")[:100]
+    for student in (student for student in grades if student.sent):
+        start = re.sub(r"[^\w .@-]", "-", student.sent).lstrip(".")[:100]
         file = folder / f"{start}_feedback.html"
         while file in files:  # of another name with other signs
             file = file.with_stem(f"{file.stem}_")
-        write_file(file, PAGE.substitute(title=title, body="\n".join(parts)))
+        write_file(file, _page(student, points))
         files.append(file)
     return files
+
+
+def _page(student: Grade, points: Points) -> str:
+    """Return the page of a student, in which characters that are no text are replaced."""
+    worth = {name: points.get(name, 1) if name else 0 for name in student.best}
+    parts = [f"<p><b>{student.points:g} of {sum(worth.values()):g}</b>All points</p>"]
+    for name, mark in student.best.items():
+        earned = worth[name] if mark.right else 0
+        of_all = f"<b>{earned:g} of {worth[name]:g}</b>" if name else ""
+        said = mark.said.removeprefix(f"✗ {name}: ").removeprefix(f"✓ {name}: ")
+        parts.append(f"<h2>{of_all}{'✓' if mark.right else '✗'} {escape(name)}</h2>")
+        parts.append(f"<p>{escape(said)}</p>")
+    title = escape(student.columns.get("Full name") or student.columns["Student"])
+    page = PAGE.substitute(title=title, body="\n".join(parts))
+    return page.encode("utf-8", "replace").decode("utf-8")

@@ -6,7 +6,6 @@ import copy
 import hashlib
 import multiprocessing
 import signal
-import stat
 import sys
 import warnings
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
@@ -24,20 +23,22 @@ from mocap._shared.progress import Progress
 from mocap._shared.tasks import serve
 from mocap.course.check import Verdict
 from mocap.course.checks import all_checks
-from mocap.course.marking.cells import Cell, Sheet, code_cells, course_sheets, named_oracle, sheet_of
-from mocap.course.marking.grades import Mark, sent_by
+from mocap.course.marking.cells import Cell, Sheet, code_cells, course_sheets, sheet_of, without_commands
+from mocap.course.marking.grades import NO_EXERCISE, NO_NOTEBOOK, NOTHING, UNKNOWN, Mark
+from mocap.course.marking.hand_ins import Collected, Sent, collect, sent_by
+from mocap.course.marking.notes import note
 from mocap.course.marking.plain_data import unpack
 from mocap.course.marking.sealed import Ended, Sealed, protection
 from mocap.course.marking.walls import require_sealing
-from mocap.course.notebooks import library
+from mocap.course.notebooks import library, names_of
 from mocap.course.opening import stored
 from mocap.errors import MocapError
 
 SECONDS = 30  # time limit of an exercise
 STARTING = 120  # time limit of the first cell, which imports much
-LARGEST = 100 << 20  # bytes of a notebook's file
 MOST_PARTS = 2_000_000  # lists, dictionaries and texts in it
 MOST_CODE = 1 << 20  # letters of code in it
+SAID = 250  # characters of names that are listed
 MISSING = "its cell is missing."
 CHANGES_PACKAGE = "✗ changes the installed package."
 _students: list[Sealed] = []  # the single one by which this process marks notebook after notebook
@@ -62,7 +63,7 @@ def mark(
     that this system can raise; what it prints is thrown away. At the end all that it started is killed. The
     first cell runs, then each exercise with the cells that define what it uses. The checks run here, on
     random input of their own. Nothing keeps a notebook from calling the package's own functions, where the
-    answers to many exercises are: the mark of one that names them says so.
+    answers to many exercises are: a note for the teacher says so, and changes no mark.
 
     Parameters
     ----------
@@ -75,7 +76,8 @@ def mark(
     Yields
     ------
     The marks of each notebook, one for each exercise: also for those that a notebook of the course has and a
-    copy lacks; then a mark for each exercise that others handed in and a student did not.
+    copy lacks; then a mark for each exercise that others handed in and a student did not, also of students
+    who handed in no notebook.
 
     Raises
     ------
@@ -90,12 +92,12 @@ def mark(
     """
     library()
     require_sealing()
-    files = [file for file in sorted(folder.rglob("*.ipynb")) if ".ipynb_checkpoints" not in file.parts]
-    if not files:
+    collected = collect(folder) if folder.is_dir() else Collected([], {})
+    if not collected.notebooks:
         raise MocapError(f"The folder {folder} holds no notebooks.")
     sheets = course_sheets(stored())
     marked: list[Mark] = []
-    handed_in = [_read(file, file.relative_to(folder).as_posix(), sheets) for file in files]
+    handed_in = [_read(sent, sheets) for sent in collected.notebooks]
     seed = int(np.random.default_rng().integers(2**32))
     hidden = [stored(), *{folder / notebook.path.split("/")[0] for notebook in handed_in}]
     with closing(Sealed(hidden)) as student:
@@ -114,11 +116,12 @@ def mark(
                 yield marks
                 marked += marks
     yield from _missing(handed_in, marked)
+    yield from _without_notebook(collected, marked)
 
 
 def _missing(handed_in: list[_Handed], marked: list[Mark]) -> Iterator[list[Mark]]:
     """Mark as wrong the exercises that others handed in and a student did not."""
-    exercises = [name for name in all_checks() if any(mark.exercise == name for mark in marked)]
+    exercises = _exercises_of(marked)
     places = {sent_by(notebook.path): notebook.path.split("/")[0] for notebook in handed_in}
     for student, place in places.items():
         submitted = {mark.exercise for mark in marked if sent_by(mark.handed_in) == student}
@@ -126,7 +129,27 @@ def _missing(handed_in: list[_Handed], marked: list[Mark]) -> Iterator[list[Mark
         _, number = student
         is_folder = place == student[0]
         if number or is_folder:  # a file without a folder names no student
-            yield [Mark(f"{place}/", name, False, f"✗ {name}: not handed in.") for name in names]
+            yield [_not_handed_in(place, name) for name in names]
+
+
+def _without_notebook(collected: Collected, marked: list[Mark]) -> Iterator[list[Mark]]:
+    """Mark as wrong all exercises of students who handed in no notebook."""
+    for place, names in collected.without_notebook.items():
+        files = ", ".join(names)
+        problem = NO_NOTEBOOK if names else NOTHING
+        said = f"is no notebook: {files}."[:SAID] if names else "nothing is in the folder."
+        whole = Mark(f"{place}/", "", False, said, files[:SAID], problem)
+        yield [whole, *(_not_handed_in(place, name) for name in _exercises_of(marked))]
+
+
+def _exercises_of(marked: list[Mark]) -> list[str]:
+    """List the exercises that have been marked, in the order of the course."""
+    names = {mark.exercise for mark in marked}
+    return [name for name in all_checks() if name in names]
+
+
+def _not_handed_in(place: str, name: str) -> Mark:
+    return Mark(f"{place}/", name, False, f"✗ {name}: not handed in.")
 
 
 def _in_parallel(
@@ -161,13 +184,10 @@ def _fingerprint(walls: Iterable[str]) -> bytes:
     return hashlib.sha256(b"".join(bytes(file) + file.read_bytes() for file in files)).digest()
 
 
-def _read(file: Path, path: str, sheets: Sequence[Sheet]) -> _Handed:
+def _read(sent: Sent, sheets: Sequence[Sheet]) -> _Handed:
     """Read a notebook that was handed in; an error becomes its field `wrong`."""
     try:
-        status = file.lstat()
-        if not stat.S_ISREG(status.st_mode) or status.st_size > LARGEST:
-            raise MocapError(f"is no plain file, or one of more than {LARGEST >> 20} MB.")
-        text = file.read_bytes().decode("utf-8-sig", "replace")
+        text = sent.read().decode("utf-8-sig", "replace")
         if sum(map(text.count, '[{"')) > MOST_PARTS:  # they would take a hundred times their place in memory
             raise MocapError("holds too much.")
         with warnings.catch_warnings():
@@ -176,12 +196,12 @@ def _read(file: Path, path: str, sheets: Sequence[Sheet]) -> _Handed:
         cells = code_cells(notebook)
         if sum(len(cell.source) for cell in cells) > MOST_CODE:
             raise MocapError(f"holds more than {MOST_CODE >> 20} MB of code.")
-        return _Handed(path, cells, sheet_of(notebook, sheets))
+        return _Handed(sent.path, cells, sheet_of(notebook, sheets))
     except MocapError as error:
-        wrong = f"{path}: {error}"
+        wrong = f"{sent.path}: {error}"
     except Exception:  # nbformat raises errors of many kinds, and lets some things pass that are no notebooks
-        wrong = f"{path}: is not a notebook."
-    return _Handed(path, [], wrong=wrong)
+        wrong = f"{sent.path}: is not a notebook."
+    return _Handed(sent.path, [], wrong=wrong)
 
 
 def _marks(handed: _Handed, seed: int) -> list[Mark]:
@@ -197,20 +217,36 @@ def _marks_of(handed: _Handed, seed: int, student: Sealed) -> Iterator[Mark]:
     exercises, course = handed.sheet
     tags = [name for cell in handed.cells for name in cell.exercises]
     names = list(dict.fromkeys([*exercises, *tags]))
-    strange = [name for name in names if name not in all_checks()]
-    note = f" The course does not know the tag `{strange[0]}`." if strange else ""
-    names = [name for name in names if name not in strange]
-    if not names:
-        yield Mark(handed.path, "", False, handed.wrong or f"holds no exercise of the course.{note}")
-    for name, verdict in _judge_all(handed.cells, names, seed, student).items():
-        said = str(verdict).replace(MISSING, MISSING + note)
-        right = verdict.right
-        oracle = named_oracle(handed.cells, all_checks()[name], course) if right else ""
-        if oracle:
-            right = oracle in all_checks()[name].oracles  # the package's own function may be called, perhaps
-            sign = "✓" if right else "✗"
-            said = f"{sign}{said[1:]} Look at its cells: they name `{oracle}`, which knows it."
-        yield Mark(handed.path, name, right, said)
+    unknown = [name for name in names if name not in all_checks()]
+    names = [name for name in names if name not in unknown]
+    if unknown:
+        listed = ", ".join(f"`{name}`" for name in unknown)
+        said = f"The course does not know the tag {listed}."[:SAID]
+        yield Mark(handed.path, "", False, said, ", ".join(unknown)[:SAID], UNKNOWN)
+    elif not names:
+        problem = NO_NOTEBOOK if handed.wrong else NO_EXERCISE
+        yield Mark(handed.path, "", False, handed.wrong or "holds no exercise of the course.", "", problem)
+    verdicts = _judge_all(handed.cells, names, seed, student)
+    wrong = {name for name, verdict in verdicts.items() if not verdict.right}
+    for name, verdict in verdicts.items():
+        said = str(verdict)
+        used = sorted(_used_by(name, handed.cells) & wrong)
+        hint = note(handed.cells, all_checks()[name], course) if verdict.right else ""
+        if used and not verdict.right:
+            hint = f"uses {', '.join(f'`{function}`' for function in used)}, which is not right either"
+            said = f"{said} It {hint}."
+        yield Mark(handed.path, name, verdict.right, said, hint)
+
+
+def _used_by(name: str, cells: Sequence[Cell]) -> set[str]:
+    """Return the names that the cells of an exercise use from others."""
+    used = {
+        word
+        for cell in cells
+        if name in cell.exercises
+        for word in names_of(without_commands(cell.source))[1]
+    }
+    return used - {name}
 
 
 def _judge_all(cells: list[Cell], names: list[str], seed: int, student: Sealed) -> dict[str, Verdict]:
@@ -246,7 +282,7 @@ def _judge(student: Sealed, name: str, seed: int) -> Verdict:
         verdict = Verdict(False, f"{name}: your answer cannot be compared with the right one.")
     if verdict.right or not error:
         return verdict
-    return Verdict(False, f"{name}: its cells raise {error}")
+    return Verdict(False, f"{name}: {error}")
 
 
 def call(student: Sealed, name: str, *arguments: Any) -> Any:  # noqa: ANN401

@@ -71,12 +71,16 @@ def _array(kind: str, shape: list[int], text: str) -> Any:  # noqa: ANN401
     return np.frombuffer(base64.b64decode(text), kind).reshape(shape).copy()
 
 
+def _dict(items: list[Any]) -> dict[Any, Any]:
+    return {unpack(key): unpack(item) for key, item in items}
+
+
 READERS: dict[str, Callable[..., Any]] = {
     "...": lambda: ...,
     "complex": complex,
     "array": _array,
-    "dict": lambda items: {unpack(key): unpack(item) for key, item in items},
-    "list": lambda items: list(map(unpack, items)),
-    "tuple": lambda items: tuple(map(unpack, items)),
-    "set": lambda items: set(map(unpack, items)),
+    "dict": _dict,
 }
+READERS["list"] = lambda items: list(map(unpack, items))
+READERS["tuple"] = lambda items: tuple(map(unpack, items))
+READERS["set"] = lambda items: set(map(unpack, items))

@@ -76,6 +76,7 @@ OF_A_FILE = USE | EXECUTE  # other rights are those of folders
 
 SYSTEM = [f"/{name}" for name in ("usr", "lib", "lib32", "lib64", "bin", "sbin", "nix/store", "etc/fonts")]
 SYSTEM += [f"/etc/{name}" for name in ("localtime", "ld.so.cache", "passwd", "group", "nsswitch.conf")]
+SYSTEM += ["/etc/mime.types"]  # of Python's `mimetypes`
 DEVICES = ("/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom")
 
 

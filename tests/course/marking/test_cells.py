@@ -1,13 +1,11 @@
 """Which cells an exercise needs, and which notebook of the course a copy is of."""
 
-import re
-
 import nbformat
 import pytest
 
 from mocap.course.checks import all_checks
-from mocap.course.marking.cells import Cell, code_cells, course_sheets, named_oracle, needed, sheet_of
-from mocap.course.notebooks import notebooks_in, read, tagged
+from mocap.course.marking.cells import Cell, code_cells, course_sheets, needed, sheet_of
+from mocap.course.notebooks import notebooks_in, read
 from mocap.course.opening import stored
 
 
@@ -71,35 +69,24 @@ def test_nothing_is_needed_for_what_is_not_there():
 
 def test_a_cell_may_hold_two_exercises():
     cell = nbformat.v4.new_code_cell("", metadata={"tags": ["exercise:a", "exercise:b"]})
-    installs = nbformat.v4.new_code_cell("%pip install -q motion-graphs")  # is left out
-    assert code_cells(nbformat.v4.new_notebook(cells=[installs, cell])) == [Cell(("a", "b"), "")]
-
-
-def test_no_solution_of_the_course_names_an_oracle(sheets):
-    for (exercises, traits), file in zip(sheets, notebooks_in(stored()), strict=True):
-        notebook = read(file)
-        solutions = {name: cell.source for name, cell in tagged(notebook, "solution")}
-        for name, cell in tagged(notebook, "exercise"):
-            cell.source = "\n".join(re.findall(r"```python\n(.*?)```", solutions[name], re.DOTALL))
-        for name in exercises:
-            assert named_oracle(code_cells(notebook), all_checks()[name], traits) == ""
+    assert code_cells(nbformat.v4.new_notebook(cells=[cell])) == [Cell(("a", "b"), "")]
 
 
 @pytest.mark.parametrize(
-    ("source", "word"),
+    ("source", "wanted"),
     [
-        ("def hamilton(a, b): return checks.hamilton.truth(a, b)", "checks"),
-        ("c = checks\ndef hamilton(a, b): return c.hamilton.stand_in(a, b)", "checks"),
-        ("def hamilton(a, b): return getattr(c, 'truth')(a, b)", "'truth"),
-        ("from mocap.course.checks import all_checks", "checks"),
-        ("hamilton = lab.mine('hamilton')", "mine('"),
-        ("def hamilton(a, b): return rotations.multiply(a, b)", "multiply"),
-        ("exec(open('../ada/03.ipynb').read())", "exec("),
-        ("def multiply(a, b): ...\ndef hamilton(a, b): return multiply(a, b)", ""),
-        ("checks.hamilton(hamilton)\n# the truth about mistakes, or eval", ""),
+        ("%pip install -q seaborn\nimport numpy as np", "pass\nimport numpy as np"),
+        ("!python3 -m pip install x\ny = 1", "pass\ny = 1"),
+        ("!{sys.executable} -m pip install x", "pass"),
+        ("pip install x\ny = 1", "pass\ny = 1"),
+        ("try:\n    import mocap\nexcept ImportError:\n    %pip install -q 'motion-graphs'", None),
+        ("%conda install -y x", "pass"),
+        ("# I had to pip install numpy again\nx = 1", "# I had to pip install numpy again\nx = 1"),
+        ("x = 'pip install numpy'", "x = 'pip install numpy'"),
+        ("pip = 3\ninstall = pip", "pip = 3\ninstall = pip"),
+        ("!ls", "!ls"),
     ],
 )
-def test_what_knows_the_answer_is_named(source, word):
-    assert named_oracle([Cell(("hamilton",), source)], all_checks()["hamilton"], ()) == word
-    assert named_oracle([Cell((), source)], all_checks()["hamilton"], ()) == word
-    assert named_oracle([Cell(("other",), source)], all_checks()["hamilton"], ()) == ""
+def test_a_cell_loses_the_line_that_installs_and_nothing_else(source, wanted):
+    (cell,) = code_cells(nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(source)]))
+    assert cell.source == (wanted or source.replace("%pip install -q 'motion-graphs'", "pass"))

@@ -8,7 +8,8 @@ from html import unescape
 import pytest
 
 from mocap.cli.main import main
-from mocap.course.marking.grades import Mark, grade, read_points, read_roster, tables, write_feedback
+from mocap.course.marking.grades import Mark, account, grade, read_points, tables, write_feedback
+from mocap.course.marking.rosters import read_roster
 from tests.course.marking.students import HONEST, SPEED, START, hand_in
 from tests.refusals import refused, refused_texts
 
@@ -46,7 +47,7 @@ def test_a_text_stays_on_one_line_and_is_short():
 def test_a_table_keeps_commas_the_better_of_two_copies_and_students_without_marks():
     marks = [Mark("ada/1.ipynb", "f", right, "✗ f: one, two") for right in (False, True, False)]
     marks.append(Mark("bob/1.ipynb", "", False, ""))
-    assert table(marks, end="")[1] == ["ada/1.ipynb", "f", "0", "✗ f: one, two"]
+    assert table(marks, end="")[1] == ["ada/1.ipynb", "f", "0", "✗ f: one, two", ""]
     assert table(marks) == [["student", "f", "points"], ["ada", "1", "1"], ["bob", "", "0"]]
 
 
@@ -67,16 +68,16 @@ def test_students_are_found_in_what_moodle_and_canvas_wrote(text, sent, tmp_path
         assert table(*made, end="-moodle") == [
             ["Identifier", "Full name", "Email address", "Last modified (grade)", "Grade"],
             ["Participant 7", "Ada Lovelace", "ada@b.org", "'-", "3.5"],
-            ["Participant 71", "Bob", "bob@b.org", "'-", "0.0"],
-            ["", "eve", "", "", "0.0"],
+            ["Participant 71", "Bob", "bob@b.org", "'-", "0"],
+            ["", "eve", "", "", "0"],
         ]
     else:
         assert table(*made, end="-canvas") == [
             ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "Homework"],
             ["Points Possible", "", "", "", "", "3.5"],
             ["Lovelace, Ada", "7", "S7", "ada", "A", "3.5"],
-            ["B, Bob", "71", "S71", "bob", "A", "0.0"],
-            ["eve", "", "", "eve", "", "0.0"],
+            ["B, Bob", "71", "S71", "bob", "A", "0"],
+            ["eve", "", "", "eve", "", "0"],
         ]
 
 
@@ -117,9 +118,12 @@ def test_the_command_writes_points_pages_and_who_is_unknown(tmp_path, capsys):
     (tmp_path / "points.toml").write_text("speed = 3")
     options = {"points": "points.toml", "roster": "roster.csv", "feedback": "pages", "out": "Sheet 1.csv"}
     paths = [part for name, file in options.items() for part in (f"--{name}", str(tmp_path / file))]
-    assert main(["course", "mark", str(tmp_path / "in"), *paths, "--jobs", "2"]) == 0
+    assert main(["course", "mark", str(tmp_path / "in"), *paths, "--jobs", "2"]) == 2
     out, err = capsys.readouterr()
-    assert "2 pages" in out and err.endswith("roster.csv: eve\n")
+    assert "2 pages" in out and "3 of 4 are right" in out
+    assert err.splitlines()[-1] == (
+        "2 folders and files: 2 marked; nothing handed in: Bob; not in the roster: eve"
+    )
     made = {
         end: read((tmp_path / f"Sheet 1{end}.csv").read_text("utf-8")) for end in ("", "-moodle", "-canvas")
     }
@@ -131,6 +135,72 @@ def test_the_command_writes_points_pages_and_who_is_unknown(tmp_path, capsys):
     assert made["-moodle"][1:] == [
         ["Participant 7", "Ada Lovelace", "ada@b.org", "'-", "4"],
         ["", "eve", "", "", "3"],
+        ["Participant 71", "Bob", "bob@b.org", "'-", "0"],
     ]
     assert made["-canvas"][0][-1] == "Sheet 1"
     assert texts(tmp_path / "pages" / "eve_feedback.html")[-2:] == ["✗ cheapest", "its cell is missing."]
+
+
+WEI = "Identifier,Full name,Email address\nParticipant 1,Wei Zhang,zhangw@b.org\n"
+WEI += "Participant 2,Wei Zhang,wzhang2@b.org\nParticipant 3,Ada Lovelace,ada@b.org\n"
+
+
+def by_identifier(roster, sent):
+    marks = [Mark(f"{name}/00.ipynb", "speed", True, "") for name in sent]
+    return marks, {line.columns["Identifier"] or line.sent: line for line in grade(marks, {}, roster)}
+
+
+@pytest.fixture
+def roster(tmp_path):
+    (tmp_path / "roster.csv").write_text(WEI)
+    return read_roster(tmp_path / "roster.csv")
+
+
+def test_two_people_of_one_name_are_told_apart_by_number_or_login(roster):
+    sent = ["Wei Zhang_1_assignsubmission_file", "Wei Zhang_2_assignsubmission_file"]
+    for names in (sent, ["zhangw", "wzhang2"]):
+        marks, grades = by_identifier(roster, names)
+        assert [grades[f"Participant {n}"].points for n in (1, 2, 3)] == [1, 1, 0]
+        assert account(marks, list(grades.values())) == (
+            "2 folders and files: 2 marked; nothing handed in: Ada Lovelace",
+            True,
+        )
+
+
+def test_a_name_of_two_people_is_refused_and_neither_gets_the_grade(roster):
+    marks, grades = by_identifier(roster, ["Wei Zhang", "Ada Lovelace"])
+    assert {*grades} == {"Wei Zhang", "Participant 3"}
+    said, needs_person = account(marks, list(grades.values()))
+    assert said == "2 folders and files: 2 marked; ambiguous in the roster: Wei Zhang" and needs_person
+
+
+def test_two_folders_of_one_person_are_refused(roster):
+    _, grades = by_identifier(roster, ["Ada Lovelace", "ada"])
+    assert [line.problem for line in grades.values()][:2] == ["ambiguous in the roster"] * 2
+    assert grades["Ada Lovelace"].points == grades["ada"].points == 1
+
+
+def test_who_is_in_the_roster_and_handed_in_nothing_gets_a_row_of_zeros(roster):
+    marks, grades = by_identifier(roster, ["zhangw"])
+    texts = tables(marks, list(grades.values()), {})
+    assert read(texts["-table"])[1:] == [
+        ["zhangw", "1", "1"],
+        ["Wei Zhang", "0", "0"],
+        ["Ada Lovelace", "0", "0"],
+    ]
+    assert read(texts["-moodle"])[-1] == ["Participant 3", "Ada Lovelace", "ada@b.org", "", "0"]
+
+
+def test_all_well_needs_no_person(roster):
+    marks, grades = by_identifier([], ["ada", "bob"])
+    assert account(marks, list(grades.values())) == ("2 folders and files: 2 marked", False)
+
+
+def test_a_page_of_a_name_from_another_system_is_written(tmp_path):
+    marks = [
+        Mark("M\udcfcller/00.ipynb", "speed", True, "✓ speed: \udcfc"),
+        Mark("zoe/1.ipynb", "speed", True, ""),
+    ]
+    files = write_feedback(grade(marks, {}), {}, tmp_path)
+    assert [file.name for file in files] == ["M-ller_feedback.html", "zoe_feedback.html"]
+    assert "M?ller" in files[0].read_text("utf-8")

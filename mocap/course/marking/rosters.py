@@ -1,0 +1,120 @@
+"""Who the students are: the .csv file of Moodle or Canvas, and which line is whose."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from mocap.course.marking.hand_ins import Student
+from mocap.errors import MocapError
+
+MOODLE = ("Identifier", "Full name", "Email address", "Last modified (grade)")
+CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
+NAMES = ("Student", "Full name", "Email address", "ID", "SIS User ID", "SIS Login ID", "Identifier")
+"""Columns that say who a student is; the first one that is not empty names the student."""
+
+MORE_NAMES = ("Username", "ID number")
+
+Row = Mapping[str, str]
+Roster = Sequence[Row]
+"""A line for each student, by the names of the columns."""
+
+
+def read_table(file: Path, parse: Callable[[str], Any]) -> Any:  # noqa: ANN401
+    """Read a file, and parse its text.
+
+    Raises
+    ------
+    MocapError : if it cannot be read or parsed.
+    """
+    try:
+        return parse(file.read_text("utf-8-sig"))
+    except (OSError, ValueError, csv.Error) as error:
+        raise MocapError(f"{file}: cannot be read ({error})."[:200]) from error
+
+
+def read_roster(file: Path | None) -> list[dict[str, str]]:
+    """Read who the students are from a .csv file that Moodle or Canvas has written.
+
+    Raises
+    ------
+    MocapError : if the file cannot be read, or none of its columns says who a student is.
+
+    Examples
+    --------
+    >>> read_roster(None)
+    []
+    """
+    if file is None:
+        return []
+    lines = read_table(file, lambda text: [*csv.reader(io.StringIO(text))])
+    header = lines[0] if lines else []
+    if not {*NAMES, *MORE_NAMES} & {*header}:
+        raise MocapError(
+            f"{file}: no column such as 'Email address' or 'SIS Login ID' says who students are."
+        )
+    rows = [dict(zip(header, line, strict=False)) for line in lines[1:]]
+    return [row for row in rows if name_of(row) and "Points Possible" not in name_of(row)]
+
+
+def name_of(row: Row) -> str:
+    """Return the name of the student of a line.
+
+    Examples
+    --------
+    >>> name_of({"ID": "71", "Student": "Lovelace, Ada"})
+    'Lovelace, Ada'
+    """
+    names = [row[column] for column in (*NAMES, *MORE_NAMES) if row.get(column, "").strip()]
+    return names[0] if names else ""
+
+
+def match(students: Iterable[Student], roster: Roster) -> dict[Student, Row | None]:
+    """Find the line of each student by the number or else by one of the names.
+
+    Returns
+    -------
+    For each student the line, an empty one if there is none, and None if it cannot be told which one it is:
+    several lines have this name, or several students fit one line.
+
+    Examples
+    --------
+    >>> roster = [{"Full name": "Wei Zhang", "Email address": f"{login}@b.org"} for login in ("wz1", "wz2")]
+    >>> match([("wz1", ""), ("Wei Zhang", ""), ("eve", "")], roster)[("Wei Zhang", "")] is None
+    True
+    """
+    lines = {student: lines_of(student, roster) for student in students}
+    claimed = [numbers[0] for numbers in lines.values() if len(numbers) == 1]
+    matched: dict[Student, Row | None] = {}
+    for student, numbers in lines.items():
+        if not numbers:
+            matched[student] = {}
+        elif len(numbers) == 1 and claimed.count(numbers[0]) == 1:
+            matched[student] = roster[numbers[0]]
+        else:
+            matched[student] = None
+    return matched
+
+
+def lines_of(student: Student, roster: Roster) -> list[int]:
+    """List the numbers of the lines that fit a student.
+
+    Examples
+    --------
+    >>> lines_of(("ada", ""), [{"SIS Login ID": "bob"}, {"SIS Login ID": "Ada"}])
+    [1]
+    """
+    name, number = student
+    return [line for line, row in enumerate(roster) if (number or name.casefold()) in _names(row, number)]
+
+
+def _names(row: Row, number: str) -> list[str]:
+    """List the numbers of a student in a roster, or else the names, with those of e-mail addresses."""
+    if number:
+        return re.findall(r"\d+", row.get("Identifier", "") or row.get("ID", ""))
+    names = [row.get(column, "").casefold() for column in (*NAMES, *MORE_NAMES)]
+    return [*names, *(name.split("@")[0] for name in names)]
