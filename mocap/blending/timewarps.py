@@ -208,4 +208,4 @@ def _tied_points(normal: csr_array, right_side: Array, tied: Array) -> Array:
     count = len(group)
     members = csr_array((np.ones(count), (np.arange(count), group)))
     of_groups = csc_array(members.T @ normal @ members)
-    return spsolve(of_groups, members.T @ (right_side - normal @ rise))[group] + rise
+    return np.asarray(spsolve(of_groups, members.T @ (right_side - normal @ rise))[group] + rise)

@@ -81,7 +81,7 @@ def warp(
             ) from None
         motion = feet.mark_plants(motion)
     warped = warp_plans.warp(motion, plan, window=window, feet=not loose_feet)
-    poses = sum(map(len, plan.wishes.values()))
+    poses = sum(map(len, plan.targets.values()))
     print_rows(keys=f"{poses} of poses, {len(plan.times)} of time")
     write_out(warped, out, details=f": {len(warped)} frames, {warped.duration:.2f} s")
 

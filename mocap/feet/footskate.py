@@ -123,7 +123,8 @@ def _solve(
         deviations = plant_deviations(solution.targets, held)
         fewer = release(marks, solution.excesses, deviations, tracks[0].motion.fps)
         # A plant that is shortened starts again from the mean of the frames that are left.
-        moved[_whole_plants((fewer != marks).any(axis=1), marks.any(axis=1))] = 0.0
+        is_shortened = np.asarray((fewer != marks).any(axis=1))
+        moved[_whole_plants(is_shortened, np.asarray(marks.any(axis=1)))] = 0.0
         marks = fewer
         solution = _hold(tracks, pelvis, marks, held, moved)
     return marks, solution
@@ -198,7 +199,7 @@ def _due_plants(marks: Mask, excesses: Sequence[Excess], span: int) -> Mask:
     due = np.zeros((len(marks), marks.shape[-1]), bool)
     for leg, frame in _nearest(marks, excesses, span):
         due[leg, frame] = True
-    return _whole_plants(due, marks.any(axis=1))
+    return _whole_plants(due, np.asarray(marks.any(axis=1)))
 
 
 def _whole_plants(seeds: Mask, planted: Mask) -> Mask:

@@ -118,8 +118,7 @@ def path_sums(costs: Floats, starts: Mask, *, slope: int, band: Band | None = No
         steps[cells] = (row <= totals[cells] + equal).argmax(0)
         row_states, states_above = states_above, row_states
     shape = costs.shape
-    steps = steps.reshape(shape)
-    return PathSums(totals.reshape(shape), steps, begins.reshape(shape), slope, equal, band)
+    return PathSums(totals.reshape(shape), steps.reshape(shape), begins.reshape(shape), slope, equal, band)
 
 
 def origins(sums: PathSums) -> Indices:

@@ -178,7 +178,7 @@ class ParametricController:
         soonest = min(self.current.frame(box.leave) for box in self.boxes.values()) - HALF
         self._decision = max(soonest, first)
         self._next = 0
-        self._transform_since = IDENTITY  # of the frames, since they were generated
+        self._transform_since: PlanarTransform = IDENTITY  # of the frames, since they were generated
         start = sum(map(len, previous)) - blended
         self._blended = range(start, start + blended)
         self._frames = concatenate([*previous, *self._transformed(first, self._decision)])
