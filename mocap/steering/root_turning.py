@@ -60,8 +60,6 @@ def as_turned(character: Character) -> Character:
     >>> turner = as_turned(controller)
     >>> type(turner).__name__, as_turned(turner) is turner
     ('RootTurner', True)
-
-    Notebook: 18-motion-matching
     """
     return RootTurner(character) if isinstance(character, Turnable) else character
 
@@ -100,8 +98,6 @@ class RootTurner:
     >>> untouched = measure_delay(Controller(graph), turns=10).mean
     >>> untouched - measure_delay(RootTurner(Controller(graph)), turns=10).mean > 0.5
     True
-
-    Notebook: 18-motion-matching
     """
 
     def __init__(
