@@ -241,7 +241,7 @@ def slerp(start: ArrayLike, end: ArrayLike, amount: ArrayLike) -> Array:
     angle = np.maximum(angle, TINY_ANGLE)
     sine = np.sin(angle)
     start_weight = np.sin((1 - amount) * angle) / sine
-    end_weight = np.copysign(np.sin(amount * angle) / sine, cosine * amount)
+    end_weight = np.sin(amount * angle) * np.copysign(1 / sine, cosine)
     result = start * start_weight[..., None]
     result += end * end_weight[..., None]
     return np.asarray(result)
