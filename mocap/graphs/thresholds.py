@@ -163,7 +163,7 @@ def playable_fractions(clips: Sequence[Motion], *, window: int, thresholds: Arra
     transitions = find_transitions(clips, window=window, below=float(values.max()))
     lengths = np.array([len(clip) for clip in clips])
     played = [_size(lengths, transitions[transitions.cost <= value], window)[1] for value in values]
-    return np.array(played) / lengths.sum()
+    return np.asarray(np.array(played) / lengths.sum())
 
 
 def _size(lengths: Indices, transitions: Transitions, window: int) -> tuple[int, int]:

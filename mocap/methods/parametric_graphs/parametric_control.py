@@ -108,6 +108,7 @@ class ParametricController:
         self.chosen: list[Chosen] = []
         self.current = make_motion(space, self.parameters)
         self.transform = IDENTITY
+        self._transform_since: PlanarTransform = IDENTITY
         self._play([], 0, self.current.frame(0.0))
 
     @property
@@ -178,7 +179,7 @@ class ParametricController:
         soonest = min(self.current.frame(box.leave) for box in self.boxes.values()) - HALF
         self._decision = max(soonest, first)
         self._next = 0
-        self._transform_since: PlanarTransform = IDENTITY  # of the frames, since they were generated
+        self._transform_since = IDENTITY  # of the frames, since they were generated
         start = sum(map(len, previous)) - blended
         self._blended = range(start, start + blended)
         self._frames = concatenate([*previous, *self._transformed(first, self._decision)])
