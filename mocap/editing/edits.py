@@ -11,7 +11,7 @@ from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.editing.bodies import Body, priced
 from mocap.editing.pins import Pins, join_pins, plant_pins, warn_of_errors
-from mocap.editing.poses import Poses, poses_of
+from mocap.editing.poses import Poses, poses_of, with_part
 from mocap.editing.solver import EVERY_FRAME, Stage, closing_stages, solve
 from mocap.editing.toes import SLACK, bend_toes, lowest_allowed
 from mocap.editing.tuned import TUNED
@@ -66,12 +66,14 @@ def edit(motion: Motion, pins: Pins, *, body: Body | None = None, frames: slice 
     if len(pins) == len(motion) and not pins.constrained.any():
         return motion
     source = poses_of(motion)
-    edited = source
     if frames is not None:
-        return brought(source, source, pins, body, frames).motion
-    for window in _windows(pins, motion.fps):
-        edited = brought(edited, source, pins.limited_to(window), body, window)
-    return edited.motion
+        return brought(source, source, pins, body, frames)
+    edited = source
+    *windows, last = _windows(pins, motion.fps)
+    for window in windows:
+        part = _changed(edited, source, pins.limited_to(window), body, window)
+        edited = edited.with_part(part, window)
+    return brought(edited, source, pins.limited_to(last), body, last)
 
 
 def _windows(pins: Pins, fps: float) -> list[slice]:
@@ -104,15 +106,24 @@ def _section(frames: slice, count: int, fps: float) -> _Section:
 
 def brought(
     motion: Poses, source: Poses, pins: Pins, body: Body | None = None, frames: slice = EVERY_FRAME
-) -> Poses:
+) -> Motion:
     """Change a motion as `edit` does, with the plants and the floor of the motion that it was made of.
-
-    If joints would sink, the constraints are solved for again, together with a floor.
 
     Parameters
     ----------
     motion, source, pins : F frames.
     body, frames : as for `edit`.
+    """
+    if not len(range(len(motion))[frames]):  # nothing may change
+        warn_of_errors(motion.motion, pins, pins.errors(motion), CLOSED)
+        return motion.motion
+    return with_part(motion.motion, _changed(motion, source, pins, body, frames).motion, frames)
+
+
+def _changed(motion: Poses, source: Poses, pins: Pins, body: Body | None, frames: slice) -> Poses:
+    """Return the frames that `brought` changes.
+
+    If joints would sink, the constraints are solved for again, together with a floor.
     """
     section = _section(frames, len(motion), motion.motion.fps)
     stays = np.ones(len(motion), bool)
@@ -136,7 +147,7 @@ def brought(
         solved = solved_for(join_pins(floor, wanted))
         bent = solved.updated(bend_toes(solved, allowed))
     marked = mark_met(bent, wanted, plants[section.outer])
-    return motion.with_part(marked[section.inner_of_outer], section.inner)
+    return marked[section.inner_of_outer]
 
 
 def edit_stages() -> tuple[Stage, ...]:

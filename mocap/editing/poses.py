@@ -74,15 +74,7 @@ class Poses:
         positions[frames] = part.positions
         matrices = self.matrices.copy()
         matrices[frames] = part.matrices
-        roots = self.motion.root_positions.copy()
-        roots[frames] = part.motion.root_positions
-        local = self.motion.rotations.copy()
-        local[frames] = part.motion.rotations
-        contacts = {name: mark.copy() for name, mark in self.motion.contacts.items()}
-        for name, mark in part.motion.contacts.items():
-            contacts.setdefault(name, np.zeros(len(self), bool))[frames] = mark
-        motion = replace(self.motion, root_positions=roots, rotations=local, contacts=contacts)
-        return Poses(motion, positions, matrices)
+        return Poses(with_part(self.motion, part.motion, frames), positions, matrices)
 
 
 MotionOrPoses = Motion | Poses
@@ -113,6 +105,20 @@ def with_frames_of(motion: Motion, source: Motion, chosen: Mask) -> Motion:
     contacts = dict(motion.contacts)
     for name, mark in source.contacts.items():
         contacts[name] = np.where(chosen, mark, contacts.get(name, mark))
+    return replace(motion, root_positions=roots, rotations=local, contacts=contacts)
+
+
+def with_part(motion: Motion, part: Motion, frames: slice | Indices) -> Motion:
+    """Replace some frames by all those of a part, with their contacts."""
+    if len(part) == len(motion):
+        return part
+    roots = motion.root_positions.copy()
+    roots[frames] = part.root_positions
+    local = motion.rotations.copy()
+    local[frames] = part.rotations
+    contacts = {name: mark.copy() for name, mark in motion.contacts.items()}
+    for name, mark in part.contacts.items():
+        contacts.setdefault(name, np.zeros(len(motion), bool))[frames] = mark
     return replace(motion, root_positions=roots, rotations=local, contacts=contacts)
 
 

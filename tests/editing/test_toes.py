@@ -17,7 +17,7 @@ from mocap.editing.toes import bend_toes, lowest_allowed, lowest_heights, toe_ti
 from mocap.editing.warp_plans import load_plan, warp
 from mocap.feet.footplants import mark_plants
 from tests.editing.bodies import adult, walk, without
-from tests.refusals import unwarned
+from tests.refusals import told, unwarned
 
 TIPS = [SKELETON.index("ltoes_end"), SKELETON.index("rtoes_end")]
 FEET = [joint for leg in find_legs(SKELETON) for joint in (leg.ankle, leg.ball)]
@@ -153,6 +153,13 @@ def test_too_few_frames_for_a_curve_stay_as_they_are():
     one = solve(walk(), wish, closing_stages()[:1], frames=slice(240, 241)).motion
     assert np.flatnonzero(~unchanged(one, walk())).tolist() == [240]
     assert pin_errors(one, wish).max() < 1e-8
+
+
+def test_an_edit_of_no_frame_changes_nothing_and_says_what_is_missed():
+    hand = joint_positions(walk(1.0))[60, SKELETON.index("lwrist")]
+    wish = pin(walk(1.0), "lwrist", [60], hand + 0.05)
+    edited = told("mm off its pin", edit, walk(1.0), wish, frames=slice(60, 60))
+    assert unchanged(edited, walk(1.0)).all()
 
 
 def test_a_foot_that_is_asked_under_the_floor_goes_there():
