@@ -69,8 +69,9 @@ def posed():
 
 @case("solved")
 def solved():
-    costs, coefficients = editing.solve(*reached(160), SHORTLY)[1:]
-    return {"costs": numbers(costs, "pass"), "short of": numbers(coefficients, FRAME, "constraint")}
+    result = editing.solve(*reached(160), SHORTLY)
+    worst = numbers(result.worst, "pass")
+    return {"costs": worst, "short of": numbers(result.change, FRAME, "constraint")}
 
 
 @case("keys")
