@@ -141,11 +141,11 @@ def _ankle_goal(track: LegTrack, marks: Mask, places: Array, length: float) -> A
     """
     flat = marks[0]
     if not track.leg.has_ball:
-        return np.where(flat[:, None], places[0], places[1])
+        return np.asarray(np.where(flat[:, None], places[0], places[1]))
     path = track.ankle + smooth_fill(places[0] - track.ankle, flat, track.motion.fps)
     foot = path - places[1]
     rolled = places[1] + length * foot / np.linalg.norm(foot, axis=1, keepdims=True)
-    return np.where(flat[:, None], places[0], rolled)
+    return np.asarray(np.where(flat[:, None], places[0], rolled))
 
 
 def _least_bend(track: LegTrack, flat: Mask, goal: Array) -> Array:
