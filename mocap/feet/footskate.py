@@ -123,8 +123,7 @@ def _solve(
         deviations = plant_deviations(solution.targets, held)
         fewer = release(marks, solution.excesses, deviations, tracks[0].motion.fps)
         # A plant that is shortened starts again from the mean of the frames that are left.
-        is_shortened = np.asarray((fewer != marks).any(axis=1))
-        moved[_whole_plants(is_shortened, np.asarray(marks.any(axis=1)))] = 0.0
+        moved[_whole_plants(np.any(fewer != marks, axis=1), marks)] = 0.0
         marks = fewer
         solution = _hold(tracks, pelvis, marks, held, moved)
     return marks, solution
@@ -199,13 +198,13 @@ def _due_plants(marks: Mask, excesses: Sequence[Excess], span: int) -> Mask:
     due = np.zeros((len(marks), marks.shape[-1]), bool)
     for leg, frame in _nearest(marks, excesses, span):
         due[leg, frame] = True
-    return _whole_plants(due, np.asarray(marks.any(axis=1)))
+    return _whole_plants(due, marks)
 
 
-def _whole_plants(seeds: Mask, planted: Mask) -> Mask:
-    """Find all frames of the plants that have a seed, (L, F); `planted` says when each foot stands."""
-    pairs = zip(seeds, planted, strict=True)
-    return np.array([binary_propagation(seed, mask=stands) for seed, stands in pairs])
+def _whole_plants(seeds: Mask, marks: Mask) -> Mask:
+    """Find all frames of the plants of feet that have a seed, (L, F), by marks (L, 2, F)."""
+    pairs = zip(seeds, marks, strict=True)
+    return np.array([binary_propagation(seed, mask=mark.any(axis=0)) for seed, mark in pairs])
 
 
 def _towards_foot(target: FootTarget, frame: int) -> Array:
