@@ -129,8 +129,8 @@ TRIALS = {
 }
 FIXED = {
     "holds_together": "what a user may expect of a graph, which no trial tells",
-    "larger_thresholds": "a user chooses among them",
-    "proposed_frames": "a limit of the time",
+    "larger_thresholds": "a user chooses one of the proposals",
+    "proposed_frames": "a limit of the time that it takes",
 }
 STUDY = Study(tuned, TRIALS, FIXED, (BUNDLED_WALKS, CAPTURED_WALKS))
 
