@@ -98,6 +98,7 @@ class ParametricController:
             raise MocapError(f"There is no node '{self.node}'; there are: {', '.join(graph)}.")
         space: Space = graph.nodes[self.node]["space"]
         self.target = np.full(3, np.nan)
+        self._transform_since = IDENTITY
         self.rotation_rate = 0.0  # radians per second, of one who turns the figure in addition
         self.skeleton = space.examples.skeleton
         self.fps = space.examples.fps
