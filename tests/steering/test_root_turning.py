@@ -25,7 +25,7 @@ CHARACTERS = {
 
 def far(motion):
     """Return how far each standing foot slides, cm."""
-    return [plant.far for plant in foot_sliding(motion) if plant.stop - plant.start > 2]
+    return [plant.distance for plant in foot_sliding(motion) if plant.stop - plant.start > 2]
 
 
 @pytest.mark.parametrize("name", CHARACTERS)

@@ -109,7 +109,6 @@ class ParametricController:
         self.chosen: list[Chosen] = []
         self.current = make_motion(space, self.parameters)
         self.transform = IDENTITY
-        self._transform_since: PlanarTransform = IDENTITY
         self._play([], 0, self.current.frame(0.0))
 
     @property

@@ -170,7 +170,7 @@ def test_it_never_glides_on_one_pose_though_no_clip_turns():
     ground = joint_positions(walked)[:, [walked.skeleton.index("lfoot"), walked.skeleton.index("rfoot")], 1]
     lifts = np.diff((ground > ground.mean(axis=0)).astype(int), axis=0) > 0
     assert lifts.sum(axis=0).min() >= 15  # a step of each foot every 1.1 s
-    assert np.mean([plant.far for plant in foot_sliding(walked)]) < 15
+    assert np.mean([plant.distance for plant in foot_sliding(walked)]) < 15
     assert len(set(played(MotionMatcher(straight())).tolist())) > 50
 
 
