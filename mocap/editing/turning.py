@@ -227,7 +227,11 @@ def _balance(path: GroundPath, along: Array, speed: Array) -> Array:
 
 
 def lean(motion: Motion, heading: Array, angle: Array) -> tuple[Motion, dict[int, Array]]:
-    """Lean a body to the left, about its root: the feet move to the right.
+    """Lean a body to the left: its feet move to the right, and its root is lowered.
+
+    A straight leg of length h that leans by an angle a about its foot ends h cos a above the foot, and
+    h sin a to its left. So a root at height h is lowered to h cos a, and footplants move by h sin a to the
+    right: legs reach them at the same length, and feet stay on the floor. The root stays on its path.
 
     Captured people lean most in the legs. The pelvis leans by half as much, the trunk by a quarter. Feet keep
     their slope on the ground.
@@ -247,18 +251,25 @@ def lean(motion: Motion, heading: Array, angle: Array) -> tuple[Motion, dict[int
     >>> from mocap.body import joint_positions
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")[:240]  # towards +z: left is +x
-    >>> leaning, held = lean(walk, np.zeros(240), np.full(240, 0.1))
-    >>> moved = dict(zip(walk.skeleton.names, (joint_positions(leaning) - joint_positions(walk))[0, :, 0]))
-    >>> [round(float(moved[name]), 3) for name in ("head", "root", "ltibia", "lfoot")]  # metres
-    [0.014, 0.0, -0.043, -0.084]
+    >>> leaning, held = lean(walk, np.zeros(240), np.full(240, 0.3))
+    >>> moved = dict(zip(walk.skeleton.names, joint_positions(leaning)[0] - joint_positions(walk)[0]))
+    >>> for name in ("head", "root", "ltibia", "lfoot"):
+    ...     print(name, moved[name][:2].round(3).tolist())  # metres to the left, and up
+    head [0.043, -0.047]
+    root [0.0, -0.043]
+    ltibia [-0.128, -0.034]
+    lfoot [-0.25, -0.01]
     >>> round(float(np.nanmean(held[4] - joint_positions(walk)[:, 4], axis=0)[0]), 3)  # of the left ankle
-    -0.1
+    -0.295
     """
     zeros = np.zeros(len(motion))
     leftward = np.stack([np.cos(heading), zeros, -np.sin(heading)], axis=1)
     backward = -np.stack([np.sin(heading), zeros, np.cos(heading)], axis=1)
-    distance = motion.root_positions[:, 1] * np.tan(angle)
-    outside = replace(motion, root_positions=motion.root_positions - distance[:, None] * leftward)
+    height = motion.root_positions[:, 1]
+    outward = -(height * np.sin(angle))[:, None] * leftward
+    outside = replace(motion, root_positions=motion.root_positions + outward)
+    lowered = motion.root_positions.copy()
+    lowered[:, 1] = height * np.cos(angle)
     fractions = _lean_fractions(motion.skeleton)
     world = forward_kinematics(motion).matrices
     local = motion.rotations.copy()
@@ -274,7 +285,7 @@ def lean(motion: Motion, heading: Array, angle: Array) -> tuple[Motion, dict[int
     pins = plant_pins(outside)
     held = np.where(np.isfinite(pins.low), pins.low, np.nan)
     places = {joint: held[:, column] for column, joint in enumerate(pins.joints)}
-    return replace(motion, rotations=local), places
+    return replace(motion, root_positions=lowered, rotations=local), places
 
 
 def _lean_fractions(skeleton: Skeleton) -> Mapping[int, float]:

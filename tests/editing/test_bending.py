@@ -8,13 +8,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocap.body import GroundPath, find_legs, joint_positions, resample
+from mocap.body import GroundPath, Motion, Skeleton, find_legs, joint_positions, resample
 from mocap.body.ground_path import SHAPES, arcs, circle, s_curve
 from mocap.datasets.samples import sample
 from mocap.editing.bending import bend
 from mocap.editing.line_rounding import _smoothed, round_line
 from mocap.editing.path_editing import Ride, moving_frames, plants_kept, ride_of
-from mocap.editing.turning import places_on, slow_down
+from mocap.editing.turning import lean, places_on, slow_down
 from mocap.feet.footplants import mark_plants
 from mocap.files.load_save import load
 from tests.editing.test_path_editing import off, slide
@@ -168,6 +168,45 @@ def test_legs_lean_by_the_whole_angle_and_the_trunk_by_a_quarter():
     assert np.mean([leans(leg.hip, leg.ankle) for leg in legs]) == pytest.approx(asked, rel=0.25)
     assert 0 < leans(names.index("upperneck"), 0) < 0.6 * asked
     assert slide(bent.motion) < 1e-6
+
+
+@pytest.mark.parametrize("degrees", [-30, 0, 10, 45])
+def test_a_straight_leg_leans_about_its_foot_and_stays_as_long(degrees):
+    length, angle = 0.9, np.radians(degrees)
+    half, ahead, up = [0, -length / 2, 0], [0, 0, 0.1], [0, 0.4, 0]
+    legs = [side + part for side in "lr" for part in ("femur", "tibia", "foot", "toes")]
+    names = ["root", "spine", "head", *legs]
+    bones = [[0, 0, 0], half, half, ahead]  # both hips are where the root is
+    skeleton = Skeleton(names, [-1, 0, 1, 0, 3, 4, 5, 0, 7, 8, 9], [[0, 0, 0], up, up, *bones, *bones])
+    upright = np.tile([1.0, 0, 0, 0], (4, len(names), 1))
+    stands = {name: np.ones(4, bool) for name in names if name.endswith(("foot", "toes"))}
+    standing = Motion(skeleton, np.tile([0, length, 0], (4, 1)), upright, 30, contacts=stands)
+    leaning, held = lean(standing, np.zeros(4), np.full(4, angle))
+    for leg in find_legs(skeleton):  # towards +z: left, the inside, is +x
+        hip, ankle = joint_positions(leaning)[:, [leg.hip, leg.ankle]].transpose(1, 0, 2)
+        across = [length * np.sin(angle), length * np.cos(angle), 0]
+        assert hip - held[leg.ankle] == pytest.approx(np.tile(across, (4, 1)), abs=1e-9)
+        assert hip[:, 1] == pytest.approx(length * np.cos(angle), abs=1e-9)
+        assert np.linalg.norm(hip - held[leg.ankle], axis=1) == pytest.approx(length, abs=1e-9)
+        assert ankle == pytest.approx(held[leg.ankle], abs=1e-9)
+
+
+def lowest_joints_of_feet(motion):
+    """Give how high the lowest joint of both feet is in each frame, metres."""
+    feet = [joint for leg in find_legs(motion.skeleton) for joint in (leg.ankle, leg.ball)]
+    return joint_positions(motion)[:, feet, 1].min(axis=1)
+
+
+@pytest.mark.parametrize("rate", [30, 45], ids=["jog", "run"])
+def test_who_leans_far_keeps_his_plants_and_his_feet_on_the_floor(rate):
+    """At 2 m/s, legs that leaned below a root as high as before lost 38 % of the plants, and floated."""
+    jog = replace(clip("jog")[:120], fps=rate)
+    bent = bend(jog, circle(1.5))
+    assert plants_kept(bent.motion, bent.laid) == 1
+    asked, found = lowest_joints_of_feet(jog), lowest_joints_of_feet(bent.motion)
+    shares = [0, 10, 50, 90]  # percent of the frames; the highest flight may be lower
+    assert np.percentile(found, shares) == pytest.approx(np.percentile(asked, shares), abs=0.01)
+    assert found.max() <= asked.max() + 0.01
 
 
 @pytest.mark.parametrize("name", ["16_17", "16_27", "16_33"])
