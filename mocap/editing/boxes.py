@@ -189,7 +189,7 @@ class RelativeRotation(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class RotationBoxes(Boxes):
-    """Boxes for rotations [Gle98, joint limits, orientations].
+    """Boxes for rotations [Gle98, joint limits; orientations].
 
     Parameters
     ----------

@@ -107,7 +107,7 @@ def slots(*names: str) -> list[Slot]:
 def tools() -> Tools:
     """Return the student's functions, where they passed their checks, and the package's for the rest.
 
-    Notebook: 07-walks-and-search
+    Notebook: 05-motion-graph
     """
     return Tools(**{slot.name: slot for slot in slots(*NAMES)})
 
@@ -115,7 +115,7 @@ def tools() -> Tools:
 def as_written() -> Tools:
     """Return the student's functions as they stand, right or wrong, and the package's for the rest.
 
-    Notebook: 08-path-synthesis
+    Notebook: 07-walks-and-search
     """
     _refresh("so that it runs as you wrote it")
     chosen = {}
