@@ -23,7 +23,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mocap._shared import records
-from mocap._shared.limits import Overdue, time_limit
+from mocap._shared.limits import Overdue
+from mocap.course.guarded_calls import guarded
 from mocap.errors import MocapError
 
 Function = Callable[..., Any]
@@ -91,8 +92,55 @@ def close_rotations(answer: Any, wanted: Any) -> bool:  # noqa: ANN401
 
 
 def altered(old: Any, new: Any) -> bool:  # noqa: ANN401
-    """Check whether an argument is an array that a function has changed."""
-    return isinstance(old, np.ndarray) and not np.array_equal(new, old, equal_nan=True)
+    """Check whether a function has changed an argument, or anything in it.
+
+    Parameters
+    ----------
+    old : a copy of the argument from before the call.
+    new : the argument after the call.
+
+    Examples
+    --------
+    >>> altered([1, {2}], [1, {2}]), altered([1, {2}], [1, {2, 3}])
+    (False, True)
+    """
+    if isinstance(old, np.ndarray):
+        return not _equal_arrays(old, new)
+    if isinstance(old, dict):
+        return old.keys() != new.keys() or any(altered(old[key], new[key]) for key in old)
+    if isinstance(old, list | tuple):
+        return len(old) != len(new) or any(map(altered, old, new))
+    if isinstance(old, float | complex):
+        return not np.array_equal(old, new, equal_nan=True)
+    if isinstance(old, set | frozenset | str | int | None):
+        return bool(old != new)
+    return _altered_attributes(old, new)
+
+
+def _equal_arrays(old: Any, new: Any) -> bool:  # noqa: ANN401
+    """Check whether two arrays are equal; NaN equals NaN."""
+    is_numeric = np.issubdtype(old.dtype, np.number)
+    return bool(np.array_equal(old, new, equal_nan=is_numeric))
+
+
+def _altered_attributes(old: Any, new: Any) -> bool:  # noqa: ANN401
+    """Check whether an attribute of an object, such as a motion, has changed; new ones are caches."""
+    attributes = getattr(new, "__dict__", {})
+    for name, value in getattr(old, "__dict__", {}).items():
+        if name in attributes and altered(value, attributes[name]):
+            return True
+    return False
+
+
+CHANGES = "your function changes its arguments; work on a copy."
+
+
+def _raised(error: BaseException, function: Function) -> str:
+    """Describe an error of a student's function. Arrays of motions are read-only, which NumPy says."""
+    if isinstance(error, ValueError) and "read-only" in str(error):
+        return CHANGES
+    kind = " ".join(filter(None, (type(error).__name__, place_of(error, function))))
+    return f"your function raises {kind}: {error}"
 
 
 class Texts(records.NamedTuple):
@@ -164,7 +212,7 @@ class Check:
     ✓ double: right on 40 random inputs.
     """
 
-    seconds = 30.0
+    seconds = 6.0
 
     def __init__(self, name: str, texts: Texts, load: Callable[[], Answers], notebook: str = "") -> None:
         self.name = name
@@ -227,7 +275,7 @@ class Check:
         function = written(function)
         trials: list[Trial] = []
         try:
-            with time_limit(self.seconds):
+            with guarded(self.seconds):
                 wrong = self._try(function, trials, seed)
         except AnswersWithheld as error:
             return Verdict(False, str(error))
@@ -237,8 +285,7 @@ class Check:
         except NotImplementedError:
             wrong = f"not there yet. It must return {self.asks}. Hint: {self.start}"
         except (Exception, SystemExit) as error:  # it may raise anything, and the page shows it
-            kind = " ".join(filter(None, (type(error).__name__, place_of(error, function))))
-            wrong = f"your function raises {kind}: {error}"
+            wrong = _raised(error, function)
         wrong = wrong or self._wrong(trials)
         return Verdict(not wrong, f"{self.name}: {wrong or f'right on {self.trials} random inputs.'}")
 
@@ -254,7 +301,7 @@ class Check:
             if answer is ...:
                 raise NotImplementedError
             if any(map(altered, arguments, used)):
-                return "your function changes its arguments; work on a copy."
+                return CHANGES
         return ""
 
     def _wrong(self, trials: list[Trial]) -> str:

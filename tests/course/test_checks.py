@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from mocap.course import checks
-from mocap.course.check import Answers, Check, Texts, close, close_angles, close_rotations
+from mocap.course.check import Answers, Check, Texts, altered, close, close_angles, close_rotations
 from tests.course.told import frozen, told
 
 ALL = checks.all_checks()
@@ -164,3 +164,28 @@ def test_a_wrong_function_is_refused_for_nbgrader_also_without_assertions():
     with pytest.raises(AssertionError, match="✗ double: That is the square"):
         DOUBLE.require(lambda x: x * x)
     assert "assert " not in inspect.getsource(Check.require)
+
+
+class Walker:
+    """An object with attributes, one of which is a cache."""
+
+    def __init__(self):
+        self.steps = [np.zeros(3), {"left": 1.0}]
+
+
+def test_a_change_deep_in_an_argument_is_found_and_a_cache_is_none():
+    old, new = Walker(), Walker()
+    assert not altered((old, np.nan, {1}), (new, np.nan, {1}))
+    new.cache = 3
+    assert not altered(old, new)
+    new.steps[1]["left"] = 2.0
+    assert altered([old], [new])
+    assert altered({"a": np.zeros(2)}, {"a": np.ones(2)}) and altered({1: 2}, {1: 2, 3: 4})
+
+
+def test_a_function_that_writes_into_a_motion_is_told_so():
+    def mix(a, b, alpha):
+        a.root_positions[:] = 0
+        return checks.mix.truth(a, b, alpha)
+
+    assert "changes its arguments" in checks.mix.verdict(mix).message
