@@ -105,8 +105,6 @@ class PositionBoxes(Boxes):
     array([[[ True,  True, False]]])
     >>> rail.residual(np.zeros((1, 1, 3)))
     array([[[0.3, 0.9, 0. ]]])
-
-    Notebook: 14-levels
     """
 
     joints: tuple[int, ...]

@@ -97,6 +97,8 @@ def numbered_edges(graph: nx.MultiDiGraph) -> Indices:
     --------
     >>> numbered_edges(nx.MultiDiGraph([("a", "b"), ("b", "c"), ("b", "a")])).tolist()
     [[0, 1], [1, 2], [1, 0]]
+
+    Notebook: 06b-pruning-clips
     """
     number = {node: index for index, node in enumerate(graph)}
     return np.array([(number[start], number[end]) for start, end in graph.edges()], int).reshape(-1, 2)
