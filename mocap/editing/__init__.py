@@ -8,8 +8,8 @@ Reading order (notebooks 10 to 14)
 ---------------------------------
  1. `displacements`: displacement maps, which an edit adds to a motion, and the splines that keep them smooth
  2. `poses`: a motion with its joints in the world, computed once and handed on
- 3. `boxes`: the two kinds of constraint, on positions and on rotations, with their values and Jacobians
- 4. `pins`: constraints of both kinds together: footplants, rails, floors, limits, orientations
+ 3. `boxes`: constraints of two kinds, on positions and on rotations, with their values and Jacobians
+ 4. `pins`: the constraints that edits use: footplants, rails, floors, limits, orientations
  5. `bodies`: which joints may rotate, about which axes, at what price
  6. `solver`: its stages; the smallest smooth change that meets constraints, for single frames or all together
  7. `toes`: toes that bend so that their tips stay above the floor

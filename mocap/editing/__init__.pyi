@@ -2,6 +2,7 @@ from .bending import LIMIT as LIMIT
 from .bending import Bent as Bent
 from .bending import bend as bend
 from .bodies import body_of as body_of
+from .boxes import Pins as Pins
 from .cycles import Loop as Loop
 from .cycles import find_loop as find_loop
 from .cycles import loop as loop
@@ -26,7 +27,6 @@ from .path_editing import on_path as on_path
 from .path_editing import plants_kept as plants_kept
 from .path_editing import ride_of as ride_of
 from .path_editing import start_at as start_at
-from .pins import Pins as Pins
 from .pins import join_pins as join_pins
 from .pins import keep_turned as keep_turned
 from .pins import limit_turns as limit_turns

@@ -3,7 +3,7 @@
 Only joints above a constrained one take part. The costs, called prices, and hinges are ours.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
@@ -11,8 +11,8 @@ from mocap._shared.arrays import Array, Indices
 from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import hinge_of
 from mocap.body.motion import rotating_joints
+from mocap.editing.boxes import Pins
 from mocap.editing.displacements import Displacement, right_jacobian
-from mocap.editing.pins import Pins
 from mocap.editing.poses import ROOT, ROTATIONS, MotionOrPoses, Poses, WorldAxes, poses_of
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
@@ -92,6 +92,20 @@ def body_of(motion: MotionOrPoses, pins: Pins, *, prices: Mapping[str, float] | 
     Notebook: 14-levels
     """
     poses = poses_of(motion)
+    return body_rotating(poses, pins.movers(poses.motion.skeleton), prices)
+
+
+def body_rotating(
+    poses: Poses, movers: Iterable[Iterable[int]], prices: Mapping[str, float] | None = None
+) -> Body:
+    """Price the joints that may rotate, as `body_of` does.
+
+    Parameters
+    ----------
+    poses : of the clip that shows which joints rotate, and which of them are hinges.
+    movers : the joints that may rotate for each constraint, as from `Pins.movers`.
+    prices : as for `body_of`.
+    """
     clip = poses.motion
     skeleton = clip.skeleton
     factors = {skeleton.index(name): factor for name, factor in (prices or {}).items()}
@@ -103,8 +117,8 @@ def body_of(motion: MotionOrPoses, pins: Pins, *, prices: Mapping[str, float] | 
     joints: list[int] = []
     axes = [np.zeros((0, 3))]
     price = [float(len(skeleton))] * 3  # of the root's three coordinates
-    movers = sorted(set().union(*pins.movers(skeleton)))
-    for joint in (joint for joint in movers if rotates[joint]):
+    movable = sorted({joint for joints in movers for joint in joints if rotates[joint]})
+    for joint in movable:
         below = [descendant for descendant, path in enumerate(paths) if joint in path]
         moved = ((positions[:, below] - positions[:, [joint]]) ** 2).sum(axis=(1, 2)).mean()
         hinge = hinge_of(clip, joint) if joint else None  # a root that only turns on a circle can also tip
@@ -114,7 +128,7 @@ def body_of(motion: MotionOrPoses, pins: Pins, *, prices: Mapping[str, float] | 
     return Body(np.array(joints, int), np.vstack(axes), np.array(price))
 
 
-def priced(motion: MotionOrPoses, pins: Pins, trunk: float, neck: float) -> Body:
+def priced(poses: Poses, movers: Iterable[Iterable[int]], trunk: float, neck: float) -> Body:
     """Choose the joints that may rotate, with factors on the prices of the root, the trunk and the neck.
 
     The trunk is the joints that have a third of the body below them. The neck is the joints from there to the
@@ -122,7 +136,7 @@ def priced(motion: MotionOrPoses, pins: Pins, trunk: float, neck: float) -> Body
 
     Parameters
     ----------
-    motion, pins : as for `body_of`.
+    poses, movers : as for `body_rotating`.
     trunk : factor for the joints of the trunk, and for translations of the root.
     neck : factor for the joints of the neck.
 
@@ -132,10 +146,10 @@ def priced(motion: MotionOrPoses, pins: Pins, trunk: float, neck: float) -> Body
     >>> from mocap.editing.pins import pin
     >>> walk = sample("walk_straight")
     >>> head = pin(walk, "head", [0], [0, 0, 0])
-    >>> (priced(walk, head, 4, 8).price / body_of(walk, head).price).tolist()[::3]  # metres, then joints
+    >>> stiff = priced(poses_of(walk), head.movers(walk.skeleton), 4, 8)
+    >>> (stiff.price / body_of(walk, head).price).tolist()[::3]  # metres, then joints
     [4.0, 4.0, 4.0, 4.0, 4.0, 8.0, 8.0]
     """
-    poses = poses_of(motion)
     skeleton = poses.motion.skeleton
     paths = [skeleton.path_to_root(joint) for joint in range(len(skeleton))]
     joints_below = np.bincount(np.concatenate(paths))
@@ -143,7 +157,7 @@ def priced(motion: MotionOrPoses, pins: Pins, trunk: float, neck: float) -> Body
     is_above_head = np.isin(range(len(paths)), [joint for path in head_paths for joint in path])
     is_trunk = joints_below > len(skeleton) / 3
     factors = np.where(is_trunk, trunk, np.where(is_above_head, neck, 1)).tolist()
-    body = body_of(poses, pins, prices=dict(zip(skeleton.names, factors, strict=True)))
+    body = body_rotating(poses, movers, dict(zip(skeleton.names, factors, strict=True)))
     price = body.price.copy()
     price[ROOT] *= trunk
     return body._replace(price=price)

@@ -10,9 +10,10 @@ from mocap._shared.records import NamedTuple
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.editing.bodies import Body, priced
-from mocap.editing.pins import Pins, join_pins, plant_pins, warn_of_errors
+from mocap.editing.boxes import Pins
+from mocap.editing.pins import join_pins, plant_pins, require_pins_of, require_reachable, warn_of_errors
 from mocap.editing.poses import Poses, poses_of, with_part
-from mocap.editing.solver import EVERY_FRAME, Stage, closing_stages, solve
+from mocap.editing.solver import EVERY_FRAME, Stage, closing_stages, solve_stages
 from mocap.editing.toes import SLACK, bend_toes, lowest_allowed
 from mocap.editing.tuned import TUNED
 from mocap.feet.footskate import clean_up
@@ -63,7 +64,8 @@ def edit(motion: Motion, pins: Pins, *, body: Body | None = None, frames: slice 
 
     Notebook: 14-levels
     """
-    if len(pins) == len(motion) and not pins.constrained.any():
+    require_pins_of(motion, pins)
+    if not pins.constrained.any():
         return motion
     source = poses_of(motion)
     if frames is not None:
@@ -73,7 +75,8 @@ def edit(motion: Motion, pins: Pins, *, body: Body | None = None, frames: slice 
     for window in windows:
         part = _changed(edited, source, pins.limited_to(window), body, window)
         edited = edited.with_part(part, window)
-    return brought(edited, source, pins.limited_to(last), body, last)
+    part = _changed(edited, source, pins.limited_to(last), body, last)
+    return with_part(edited.motion, part.motion, last)
 
 
 def _windows(pins: Pins, fps: float) -> list[slice]:
@@ -115,7 +118,7 @@ def brought(
     body, frames : as for `edit`.
     """
     if not len(range(len(motion))[frames]):  # nothing may change
-        warn_of_errors(motion.motion, pins, pins.errors(motion), CLOSED)
+        warn_of_errors(motion.motion, pins.indices, pins.errors(motion), CLOSED)
         return motion.motion
     return with_part(motion.motion, _changed(motion, source, pins, body, frames).motion, frames)
 
@@ -128,26 +131,34 @@ def _changed(motion: Poses, source: Poses, pins: Pins, body: Body | None, frames
     section = _section(frames, len(motion), motion.motion.fps)
     stays = np.ones(len(motion), bool)
     stays[frames] = False
+    allowed = allowed_by(pins, source)[section.outer]
     plants = plant_pins(source)
     steady = plants_within(plants, source.with_frames_of(motion, stays), frames)
     wanted = join_pins(steady, pins)[section.outer]
-    part = motion[section.outer]
-
-    def solved_for(constraints: Pins) -> Poses:
-        # The whole motion shows the hinges.
-        prices = body or priced(motion, constraints, TUNED.trunk, TUNED.neck)
-        inner = section.inner_of_outer
-        return solve(part, constraints, edit_stages(), prices, quiet=True, frames=inner).poses
-
-    solved = solved_for(wanted)
-    allowed = allowed_by(pins, source)[section.outer]
+    solved = _solved(motion, wanted, body, section)
     bent = solved.updated(bend_toes(solved, allowed))
     floor = floor_for(bent, plants.joints, allowed)
     if floor.errors(solved).max() > SLACK:
-        solved = solved_for(join_pins(floor, wanted))
+        solved = _solved(motion, join_pins(floor, wanted), body, section)
         bent = solved.updated(bend_toes(solved, allowed))
-    marked = mark_met(bent, wanted, plants[section.outer])
+    marked = mark_met(bent, wanted.indices, wanted.errors(bent), plants[section.outer])
     return marked[section.inner_of_outer]
+
+
+def _solved(motion: Poses, pins: Pins, body: Body | None, section: _Section) -> Poses:
+    """Return the outer frames of a section, changed so that they meet the constraints on them.
+
+    Parameters
+    ----------
+    motion : F frames: the whole motion, which shows the hinges.
+    pins : constraints of the outer frames.
+    body : as for `edit`.
+    section : of the F frames.
+    """
+    require_reachable(motion.motion, pins)
+    if body is None:
+        body = priced(motion, pins.movers(motion.motion.skeleton), TUNED.trunk, TUNED.neck)
+    return solve_stages(motion[section.outer], pins, edit_stages(), body, section.inner_of_outer).poses
 
 
 def edit_stages() -> tuple[Stage, ...]:
@@ -216,8 +227,15 @@ def floor_for(poses: Poses, feet: Sequence[int], allowed: Array) -> Pins:
     return Pins(joints, low, np.full_like(low, np.inf))
 
 
-def mark_met(poses: Poses, pins: Pins, plants: Pins) -> Poses:
-    """Warn of constraints that are missed, and mark of the `plants` only those that `pins` still hold.
+def mark_met(poses: Poses, joints: Sequence[int], errors: Array, plants: Pins) -> Poses:
+    """Warn of constraints that are missed, and mark only those `plants` that are still in their places.
+
+    Parameters
+    ----------
+    poses : F frames.
+    joints : of all constraints, those on positions first, as from `Pins.indices`; those of plants among them.
+    errors : shape (F, joints), of these constraints, metres.
+    plants : of F frames.
 
     Examples
     --------
@@ -228,13 +246,14 @@ def mark_met(poses: Poses, pins: Pins, plants: Pins) -> Poses:
     >>> with warnings.catch_warnings(action="ignore"):
     ...     for up in ([0, 0.00009, 0], [0, 0.00015, 0]):  # metres
     ...         higher = Pins(plants.joints, plants.low + up, plants.high + up)
-    ...         print(mark_met(poses_of(walk), higher, plants).motion.contacts["lfoot"].sum())
+    ...         errors = higher.errors(poses_of(walk))
+    ...         met = mark_met(poses_of(walk), higher.indices, errors, plants)
+    ...         print(met.motion.contacts["lfoot"].sum())
     52
     0
     """
-    errors = pins.errors(poses)
-    warn_of_errors(poses.motion, pins, errors, CLOSED)
-    columns = [pins.joints.index(joint) for joint in plants.joints]
+    warn_of_errors(poses.motion, joints, errors, CLOSED)
+    columns = [joints.index(joint) for joint in plants.joints]
     stands = plants.held.all(axis=-1) & (errors <= CLOSED)[:, columns]
     names = [poses.motion.skeleton.names[joint] for joint in plants.joints]
     contacts = {**poses.motion.contacts, **dict(zip(names, stands.T, strict=True))}
@@ -290,8 +309,8 @@ def raised(motion: Motion, allowed: Array) -> Motion:
         return bent.motion
     rise = _rise_of_plants(plants, motion, under_floor)
     wanted = join_pins(floor, Pins(plants.joints, plants.low + rise, plants.high + rise))
-    body = priced(poses, wanted, TUNED.trunk, TUNED.neck)
-    return bend_toes(solve(poses, wanted, edit_stages(), body, quiet=True).poses, allowed)
+    every_frame = _section(EVERY_FRAME, len(poses), motion.fps)
+    return bend_toes(_solved(poses, wanted, None, every_frame), allowed)
 
 
 def _rise_of_plants(plants: Pins, motion: Motion, floor: Array) -> Array:

@@ -11,10 +11,11 @@ from mocap._shared.arrays import Array, Indices, Mask
 from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion
 from mocap.editing.bodies import Body, priced
+from mocap.editing.boxes import Pins
 from mocap.editing.displacements import displaced, spline_basis
-from mocap.editing.pins import Pins, require_pins_of
+from mocap.editing.pins import require_pins_of, require_reachable
 from mocap.editing.poses import ROOT, ROTATIONS, poses_of
-from mocap.editing.solver import REACH, solve
+from mocap.editing.solver import REACH, solve_stages
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
 
@@ -127,16 +128,17 @@ def hierarchy(
     if not len(knots) or not all(0 < fine < coarse for coarse, fine in pairwise(from_coarse)):
         raise MocapError(f"From level to level the knots come nearer, above 0 s; got {tuple(knots)[:8]}.")
     require_pins_of(base, pins)
+    require_reachable(base, pins)
     poses = poses_of(base)
     errors = pins.errors(poses)
-    body = priced(poses, pins, TUNED.level_trunk, TUNED.level_neck)
+    body = priced(poses, pins.movers(base.skeleton), TUNED.level_trunk, TUNED.level_neck)
     stage = replace(REACH, passes=TUNED.level_passes)
     levels: list[Level] = []
     for seconds in knots:
         if errors.max(initial=0.0) <= TOLERANCE:
             break
         is_missed = errors.max(axis=1) > TOLERANCE  # in all other frames the spline shall stay where it is
-        change = solve(poses, pins.limited_to(is_missed), [stage], body, quiet=True).change
+        change = solve_stages(poses, pins.limited_to(is_missed), [stage], body).change
         requested = np.asarray(pins.held.any(axis=-1) | (errors > 0))  # (F, P + R)
         curve = _fitted(change, _fitted_frames(requested, body, pins, base), seconds * base.fps)
         moved = displaced(poses.motion, body.displacement(curve, len(base.skeleton)))

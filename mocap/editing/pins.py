@@ -1,24 +1,19 @@
-"""Constraints on a motion: positions and rotations that its joints must reach or keep to.
+"""Constraints that edits use: footplants, rails, floors, bars, limits of joints, and orientations.
 
-One value, `Pins`, holds the boxes of both kinds in all frames: footplants, rails, floors, bars, limits of
-joints, and orientations.
+They are joined, checked, and measured here.
 """
 
 from collections.abc import Sequence
-from functools import cached_property
 from itertools import combinations
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, Mask
-from mocap._shared.records import dataclass
 from mocap.body import rotations
 from mocap.body.limbs import Leg, find_legs, with_roles
 from mocap.body.motion import Motion, require_motion
-from mocap.body.skeleton import Skeleton
-from mocap.editing.boxes import Boxes, PositionBoxes, RelativeRotation, RotationBoxes, merged_ends
+from mocap.editing.boxes import Pins, PositionBoxes, RelativeRotation, RotationBoxes
 from mocap.editing.poses import Frames, MotionOrPoses, Poses, poses_of
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError, warn
@@ -28,102 +23,6 @@ from mocap.feet.footskate import settled_marks
 
 TOLERANCE = 0.005  # metres: constraints with a smaller error cause no warning
 SLACK = 1e-6  # metres by which constraints may be farther apart than the bones between them: rounding
-NO_ROTATIONS = RotationBoxes((), np.zeros((0, 0, 3)), np.zeros((0, 0, 3)))
-
-
-@dataclass(frozen=True, eq=False)
-class Pins:
-    """Constraints on the positions of P joints, and on R rotations, in F frames [Gle98, constraints].
-
-    Parameters
-    ----------
-    joints : P different joints, as indices.
-    low, high : shape (F, P, 3), metres: boxes for their positions. An axis is held where they are equal, and
-        free from -∞ to ∞.
-    rotations : boxes for R rotations, from `limit_turns` and `keep_turned`; by default none.
-
-    Raises
-    ------
-    MocapError : for a low above its high, a number that is none, a joint that is given twice, and boxes for
-        rotations in another number of frames.
-
-    Examples
-    --------
-    >>> rail = Pins((4,), [[[0.3, 0.9, -np.inf]]], [[[0.3, 0.9, np.inf]]])
-    >>> rail.held
-    array([[[ True,  True, False]]])
-    >>> rail.positions.residual(np.zeros((1, 1, 3)))
-    array([[[0.3, 0.9, 0. ]]])
-
-    Notebook: 14-levels
-    """
-
-    joints: tuple[int, ...]
-    low: Array
-    high: Array
-    rotations: RotationBoxes = NO_ROTATIONS
-
-    if TYPE_CHECKING:  # what a caller may pass: `__post_init__` makes arrays of it
-
-        def __init__(
-            self, joints: Sequence[int], low: ArrayLike, high: ArrayLike, rotations: RotationBoxes = ...
-        ) -> None: ...
-
-    def __post_init__(self) -> None:
-        positions = PositionBoxes(self.joints, self.low, self.high)
-        for key in ("joints", "low", "high"):
-            object.__setattr__(self, key, getattr(positions, key))
-        if not self.rotations.indices:
-            no_boxes = np.zeros((len(positions), 0, 3))
-            object.__setattr__(self, "rotations", RotationBoxes((), no_boxes, no_boxes))
-        if len(self.rotations) != len(self):
-            counts = f"{len(self)} and {len(self.rotations)}"
-            raise MocapError(f"Positions and rotations need boxes in the same frames, got {counts} frames.")
-
-    def __len__(self) -> int:
-        return len(self.low)
-
-    @cached_property
-    def positions(self) -> PositionBoxes:
-        """The boxes for positions."""
-        return PositionBoxes(self.joints, self.low, self.high)
-
-    @property
-    def kinds(self) -> tuple[Boxes, Boxes]:
-        """Both kinds of constraint: on positions, and on rotations."""
-        return self.positions, self.rotations
-
-    @property
-    def indices(self) -> list[int]:
-        """The joint of each of the P + R boxes, those of positions first."""
-        return [joint for boxes in self.kinds for joint in boxes.indices]
-
-    @property
-    def held(self) -> Mask:
-        """The axes that are held, (F, P + R, 3)."""
-        return np.hstack([boxes.held for boxes in self.kinds])
-
-    @property
-    def constrained(self) -> Mask:
-        """Whether a joint is constrained on any axis, (F, P + R)."""
-        return np.hstack([boxes.constrained for boxes in self.kinds])
-
-    def __getitem__(self, frames: Frames) -> "Pins":
-        """Select frames."""
-        return Pins(self.joints, self.low[frames], self.high[frames], self.rotations[frames])
-
-    def limited_to(self, frames: Frames) -> "Pins":
-        """Free the joints in all other frames."""
-        positions = self.positions.limited_to(frames)
-        return Pins(self.joints, positions.low, positions.high, self.rotations.limited_to(frames))
-
-    def movers(self, skeleton: Skeleton) -> list[list[int]]:
-        """List for each box the joints whose rotations change its value."""
-        return [joints for boxes in self.kinds for joints in boxes.movers(skeleton)]
-
-    def errors(self, poses: Poses) -> Array:
-        """Compute the distances from the boxes, (F, P + R), metres."""
-        return np.hstack([boxes.errors(poses) for boxes in self.kinds])
 
 
 def pin(
@@ -221,6 +120,30 @@ def join_pins(*parts: Pins) -> Pins:
     rotations_low = np.hstack([part.rotations.low for part in parts])
     rotations_high = np.hstack([part.rotations.high for part in parts])
     return Pins(joints, low, high, RotationBoxes(relative, rotations_low, rotations_high))
+
+
+def merged_ends(low: Array, high: Array, later: PositionBoxes) -> tuple[Array, Array]:
+    """Merge the ends of boxes (F, P, 3) with those of later boxes for the same joints.
+
+    Of two boxes that hold an axis the later one applies. A held axis takes precedence over a box. Of two
+    boxes the common part is taken, and the later one if they have none.
+
+    Examples
+    --------
+    >>> low = np.array([[[0.0, 0.0, 0.0]]])
+    >>> later = PositionBoxes((4,), low + 0.5, low + 2)
+    >>> [ends.tolist() for ends in merged_ends(low, low + 1, later)]
+    [[[[0.5, 0.5, 0.5]]], [[[1.0, 1.0, 1.0]]]]
+    """
+    common_low = np.maximum(low, later.low)
+    common_high = np.minimum(high, later.high)
+    is_disjoint = common_low > common_high
+    is_held = low == high
+    is_later = later.held | (is_disjoint & ~is_held)
+    choices = [is_later, is_disjoint]  # the first that is true counts
+    merged_low = np.select(choices, [later.low, low], common_low)
+    merged_high = np.select(choices, [later.high, high], common_high)
+    return merged_low, merged_high
 
 
 def plant_pins(
@@ -435,12 +358,15 @@ def _distances_between_boxes(pins: Pins, a: int, b: int) -> Array:
     return np.asarray(np.linalg.norm(gaps, axis=1))
 
 
-def warn_of_errors(motion: Motion, pins: Pins, errors: Array, tolerance: float = TOLERANCE) -> None:
+def warn_of_errors(
+    motion: Motion, joints: Sequence[int], errors: Array, tolerance: float = TOLERANCE
+) -> None:
     """Warn of the constraint with the largest error, if that is above a tolerance.
 
     Parameters
     ----------
-    motion, pins : F frames.
+    motion : F frames.
+    joints : of the P + R constraints, as from `Pins.indices`.
     errors : of the motion, as from `pin_errors`, (F, P + R), metres.
     tolerance : metres.
 
@@ -453,14 +379,14 @@ def warn_of_errors(motion: Motion, pins: Pins, errors: Array, tolerance: float =
     >>> hardly = pin(walk, "root", [5], walk.root_positions[5] + [0, 0.004, 0])
     >>> with warnings.catch_warnings(record=True, action="always") as said:
     ...     for pins in (higher, hardly):
-    ...         warn_of_errors(walk, pins, pin_errors(walk, pins))
+    ...         warn_of_errors(walk, pins.indices, pin_errors(walk, pins))
     >>> print(*(warning.message for warning in said))
     'walk_straight', frame 6: 'root' is 21.6 mm off its pin, and pins of 2 frames are missed: are they
     within reach, and do they agree?
     """
     if errors.max(initial=0.0) > tolerance:
         frame, number = np.unravel_index(errors.argmax(), errors.shape)
-        name = motion.skeleton.names[pins.indices[number]]
+        name = motion.skeleton.names[joints[int(number)]]
         worst = f"'{name}' is {1000 * errors[frame, number]:.3g} mm off its pin"
         frames = int((errors > tolerance).any(axis=1).sum())
         missed = f"pins of {frames} frames are missed"

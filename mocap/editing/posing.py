@@ -8,9 +8,10 @@ from numpy.typing import ArrayLike
 
 from mocap.body.motion import Motion
 from mocap.editing.bodies import priced
-from mocap.editing.pins import Pins, join_pins, pin, plant_pins, require_reachable
+from mocap.editing.boxes import Pins
+from mocap.editing.pins import join_pins, pin, plant_pins, require_reachable, warn_of_errors
 from mocap.editing.poses import MotionOrPoses, Poses, poses_of
-from mocap.editing.solver import Stage, solve
+from mocap.editing.solver import Stage, solve_stages
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
 
@@ -70,8 +71,10 @@ def posed_with(motion: MotionOrPoses, frame: int, places: Mapping[str, ArrayLike
         high = np.where(is_free, np.inf, place)
         pins = join_pins(pins, pin(clip, joint, [frame], low, high))
     require_reachable(clip, pins)
-    body = priced(poses, pins, TUNED.pose_trunk, TUNED.pose_neck)
+    body = priced(poses, pins.movers(clip.skeleton), TUNED.pose_trunk, TUNED.pose_neck)
     stage = Stage(weight=TUNED.pose_weight, damping=TUNED.pose_damping, passes=TUNED.pose_passes)
     pose = poses[frame : frame + 1]
     named = Poses(replace(pose.motion, name=f"{clip.name}[{frame}]"), pose.positions, pose.matrices)
-    return replace(solve(named, pins[[frame]], [stage], body).motion, name=clip.name)
+    solved = solve_stages(named, pins[[frame]], [stage], body)
+    warn_of_errors(named.motion, pins.indices, solved.errors)
+    return replace(solved.motion, name=clip.name)

@@ -21,11 +21,12 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import FEET, SIDES, heading_by_hips
 from mocap.body.motion import Motion, require_motion
 from mocap.body.skeleton import Skeleton
-from mocap.editing.bodies import body_of
+from mocap.editing.bodies import body_rotating
+from mocap.editing.boxes import Pins
 from mocap.editing.edits import floor_for, mark_met
-from mocap.editing.pins import Pins, join_pins, plant_pins, with_plants
+from mocap.editing.pins import join_pins, plant_pins, require_reachable, with_plants
 from mocap.editing.poses import MotionOrPoses, Poses, poses_of
-from mocap.editing.solver import Stage, closing_stages, solve
+from mocap.editing.solver import Stage, closing_stages, solve_stages
 from mocap.editing.stances import Stance, stance_of, stance_of_zero
 from mocap.editing.toes import bend_toes
 from mocap.editing.tuned import TUNED
@@ -261,15 +262,16 @@ def retarget(motion: Motion, body: Stance, source: Stance, *, scale: float | Non
         hips = f"the hips move by {100 * moved:.0f} cm to take these steps"
         legs = f"with legs of {100 * body.leg:.0f} cm: no leg takes them at ease"
         warn(f"'{shortened(motion.name)}': {hips}, {legs}.")
-    return mark_met(bent, pins, plants).motion
+    return mark_met(bent, pins.indices, pins.errors(bent), plants).motion
 
 
 def _solved(base: Poses, pins: Pins, body: Stance) -> Poses:
     """Change a copied motion until its constraints are met, at a higher cost of knees and trunk."""
+    require_reachable(base.motion, pins)
     smooth = Stage(knots=TUNED.worn_knots, decay=TUNED.worn_decay, passes=TUNED.worn_passes)
     costs = dict.fromkeys(_stiff_joints(body), TUNED.worn_stiffness)
-    stages = (smooth, *closing_stages())
-    return solve(base, pins, stages, body_of(base, pins, prices=costs), quiet=True).poses
+    rotating = body_rotating(base, pins.movers(body.skeleton), costs)
+    return solve_stages(base, pins, (smooth, *closing_stages()), rotating).poses
 
 
 def _stiff_joints(body: Stance) -> list[str]:

@@ -23,12 +23,12 @@ from mocap._shared.arrays import Array, Indices, Mask
 from mocap._shared.records import NamedTuple, dataclass
 from mocap.body.motion import Motion
 from mocap.editing.bodies import Body, body_of
+from mocap.editing.boxes import Pins
 from mocap.editing.displacements import displaced, spline_basis
-from mocap.editing.pins import Pins, require_pins_of, require_reachable, warn_of_errors
+from mocap.editing.pins import require_pins_of, require_reachable, warn_of_errors
 from mocap.editing.poses import ROTATIONS, MotionOrPoses, Poses, poses_of
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
-from mocap.feet.ankle_targets import smooth_fill
 
 MET = 5e-10  # metres: constraints with a smaller error are met
 RIDGE = 1e-13  # of the largest entry: a clip of fewer frames than splines leaves some of them unseen
@@ -193,7 +193,22 @@ def solve(  # noqa: PLR0913 (a motion, constraints, how to solve, and two option
     if not len(stages):
         raise MocapError("To solve takes a stage or more, got none.")
     start = poses_of(base)
-    body = body or body_of(start, pins)
+    solved = solve_stages(start, pins, stages, body or body_of(start, pins), frames)
+    if not quiet:
+        warn_of_errors(motion, pins.indices, solved.errors)
+    return solved
+
+
+def solve_stages(
+    start: Poses, pins: Pins, stages: Sequence[Stage], body: Body, frames: slice = EVERY_FRAME
+) -> Solved:
+    """Meet constraints as `solve` does; they are taken as checked, and nothing warns of those missed.
+
+    Parameters
+    ----------
+    start, pins : F frames.
+    stages, body, frames : as for `solve`.
+    """
     stays = np.ones(len(start), bool)
     stays[frames] = False
     errors = pins.errors(start)
@@ -201,8 +216,6 @@ def solve(  # noqa: PLR0913 (a motion, constraints, how to solve, and two option
     solved = Solved(start, errors, [float(errors.max(initial=0.0))], no_change)
     for stage in _with_damping_under_bars(stages, pins):
         solved = _solve_stage(stage, solved, pins, body, stays)
-    if not quiet:
-        warn_of_errors(motion, pins, solved.errors)
     return solved._replace(poses=solved.poses.with_frames_of(start, stays))
 
 
@@ -214,12 +227,20 @@ def _solve_stage(stage: Stage, last: Solved, pins: Pins, body: Body, stays: Mask
     curve = Curve(stage, frames, last.motion.fps, body.price, stays[rows])
     if not curve.basis.shape[1]:  # nothing to do, or no curve leaves the frames unchanged that must stay
         return last._replace(change=change)
-    constraints = led(pins, last.poses, stage.lead) if stage.lead else pins
+    constraints = pins.led(last.poses, stage.lead) if stage.lead else pins
     problem = _Problem(last.poses[rows], constraints[rows], body, curve)
     end, worst = _descend(problem, stage)
     change[rows] = end.change
     poses = last.poses.with_part(end.poses, rows)
-    return Solved(poses, pins.errors(poses), last.worst + worst, change)
+    errors = last.errors.copy()
+    errors[rows] = _errors(end.residual, pins.bounded[rows])
+    return Solved(poses, errors, last.worst + worst, change)
+
+
+def _errors(residual: Array, bounded: Mask) -> Array:
+    """Compute the errors (F, N), metres, of residuals (F, 3 N): on axes that are bounded, not only led."""
+    components = np.where(bounded, residual.reshape(bounded.shape), 0.0)
+    return np.asarray(np.linalg.norm(components, axis=-1))
 
 
 def _rows(stage: Stage, errors: Array, stays: Mask) -> slice | Indices:
@@ -243,32 +264,6 @@ def _with_damping_under_bars(stages: Sequence[Stage], pins: Pins) -> Iterator[St
     for number, stage in enumerate(stages):
         is_damped = number == 0 and has_ceiling
         yield replace(stage, damping=TUNED.bar_damping) if is_damped else stage
-
-
-def led(pins: Pins, poses: Poses, seconds: float) -> Pins:
-    """Hold constrained joints also between their constraints: on a smooth path next to their own [ours].
-
-    A joint's own path is moved by the curve through the residuals that bends least. Without it angles change
-    smoothly, but a foot at the end of a chain of them accelerates.
-
-    Parameters
-    ----------
-    pins, poses : F frames.
-    seconds : over which the curve begins before the first constraint and ends after the last one.
-    """
-    positions = pins.positions.values(poses)
-    held = pins.positions.held
-    low = pins.low.copy()
-    high = pins.high.copy()
-    for number, axis in np.argwhere(held.any(axis=0)):
-        column = np.s_[:, number, axis]
-        residual = np.where(held[column], low[column] - positions[column], 0.0)
-        curve = smooth_fill(residual[:, None], held[column], poses.motion.fps, seconds)
-        path = positions[column] + curve[:, 0]
-        is_free = np.isinf(low[column]) & np.isinf(high[column])
-        low[column] = np.where(is_free, path, low[column])
-        high[column] = np.where(is_free, path, high[column])
-    return Pins(pins.joints, low, high, pins.rotations)
 
 
 class _Iterate(NamedTuple):
@@ -313,11 +308,9 @@ class _Problem(NamedTuple):
         """Compute the iterate of control points c (K, n); zeros are the base itself."""
         motion = self.base.motion
         change = self.curve.basis @ c
-        poses = self.base
-        if c.any():
-            displacement = self.body.displacement(change, len(motion.skeleton))
-            poses = poses_of(displaced(motion, displacement))
-        residual, jacobian = linearised(poses, self.body, change, self.pins)
+        displacement = self.body.displacement(change, len(motion.skeleton))
+        poses = poses_of(displaced(motion, displacement)) if c.any() else self.base
+        residual, jacobian = self.pins.linearised(poses, self.body.world_axes(poses, displacement))
         return _Iterate(c, change, poses, residual, jacobian, self.curve.cost(c, residual))
 
 
@@ -359,38 +352,6 @@ def _shortened_step(iterate: _Iterate, curve: "Curve", damping: Array) -> Array:
 def _largest_error(residual: Array) -> float:
     """Return the largest of errors whose components are residuals (F, m), metres."""
     return float(np.linalg.norm(residual.reshape(-1, 3), axis=-1).max())
-
-
-def linearised(poses: Poses, body: Body, change: Array, pins: Pins) -> tuple[Array, Array]:
-    """Compute the residuals of all constraints, and their Jacobian, in all frames at once.
-
-    Rows of axes for which nothing is to do are 0 in the Jacobian: free ones, and those within their box.
-
-    Parameters
-    ----------
-    poses : m₀ ⊕ x, F frames.
-    body : n numbers that may change.
-    change : x, shape (F, n).
-    pins : F frames.
-
-    Returns
-    -------
-    residual : shape (F, m), metres, three rows for each box.
-    jacobian : shape (F, m, n): the derivatives of the values, which are those of -residual.
-    """
-    displacement = body.displacement(change, len(poses.motion.skeleton))
-    axes = body.world_axes(poses, displacement)
-    residuals = []
-    jacobians = []
-    for boxes in pins.kinds:
-        if not boxes.indices:
-            continue
-        values = boxes.values(poses)
-        jacobian = boxes.jacobian(poses, axes)
-        jacobian[~boxes.active(values)] = 0.0
-        residuals.append(boxes.residual(values).reshape(len(poses), -1))
-        jacobians.append(jacobian.reshape(len(poses), -1, change.shape[1]))
-    return np.concatenate(residuals, axis=1), np.concatenate(jacobians, axis=1)
 
 
 class Curve:
@@ -439,7 +400,7 @@ class Curve:
     def step(self, c: Array, residual: Array, jacobian: Array, damping: Array) -> Array:
         """Compute one step of Levenberg and Marquardt: the next control points c (K, n).
 
-        With the residual r, the Jacobian J that `linearised` returns, and the price P of c,
+        With the residual r, the Jacobian J that `Pins.linearised` returns, and the price P of c,
         ‖c'‖²_P + w² ‖r - J (c' - c)‖² + λ ‖c' - c‖²_P is least if
 
             (w² JᵀJ + (1 + λ) P) c' = w² Jᵀ (r + J c) + λ P c;

@@ -13,10 +13,11 @@ from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import heading
+from mocap.editing.boxes import Pins
 from mocap.editing.displacements import displaced
 from mocap.editing.edits import brought, clean_feet, plants_within
 from mocap.editing.keys import Key, keys_around, offsets
-from mocap.editing.pins import Pins, join_pins, pin, plant_pins
+from mocap.editing.pins import join_pins, pin, plant_pins
 from mocap.editing.poses import poses_of, with_frames_of
 from mocap.editing.posing import posed_with
 from mocap.editing.retiming import retime

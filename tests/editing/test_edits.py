@@ -8,6 +8,7 @@ import pytest
 
 from mocap.body import joint_positions, resample, rotations
 from mocap.datasets.samples import sample
+from mocap.editing.boxes import Pins
 from mocap.editing.displacements import difference, displaced, spline_basis
 from mocap.editing.edits import edit
 from mocap.editing.keys import Key, keys_around, offsets
@@ -180,6 +181,8 @@ def levels(*knots):
 
 test_what_cannot_be_edited_is_refused = refusals(
     (r"Frame 24\d: 'rwrist' would be 5.\d+ m from '\w+', the bones", edit, walk(), wishes.far_hand(walk())),
+    ("500 frames, its pins have 499", lambda: edit(walk(), hand(walk(), [240], 240)[:499])),
+    ("No joint 99: there are 38", lambda: edit(walk(), Pins((99,), *np.zeros((2, len(walk()), 1, 3))))),
     ("mark_plants finds out", edit, replace(walk(), contacts={}), hand(walk(), [240], 240)),
     ("knots come nearer", levels),
     (r"got \(0.25, 0.5\)", levels, 0.25, 0.5),

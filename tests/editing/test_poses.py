@@ -11,7 +11,7 @@ from mocap.datasets.samples import sample
 from mocap.editing import bend, edit, hierarchy, posed, retarget
 from mocap.editing.edits import edit_stages
 from mocap.editing.poses import poses_of
-from mocap.editing.solver import Stage, solve
+from mocap.editing.solver import Stage, solve, solve_stages
 from tests.editing.bodies import adult, child
 from tests.editing.wishes import hand, stone, walk
 
@@ -59,10 +59,10 @@ def test_an_edit_runs_forward_kinematics_once_beside_its_iterations(counted, mon
     passes = []
 
     def solve_and_keep(*arguments, **options):
-        passes.append(solve(*arguments, **options))
+        passes.append(solve_stages(*arguments, **options))
         return passes[-1]
 
-    monkeypatch.setattr("mocap.editing.edits.solve", solve_and_keep)
+    monkeypatch.setattr("mocap.editing.edits.solve_stages", solve_and_keep)
     edit(CLIP, HAND)
     iterations = sum(len(solved.worst) - 1 for solved in passes)
     assert len(passes) == 1 and iterations <= sum(stage.passes for stage in edit_stages())

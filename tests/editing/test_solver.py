@@ -15,7 +15,7 @@ from mocap.editing.bodies import body_of
 from mocap.editing.displacements import displaced, spline_basis
 from mocap.editing.pins import join_pins, keep_turned, limit_turns, pin, pin_errors, plant_pins
 from mocap.editing.poses import poses_of
-from mocap.editing.solver import REACH, Curve, Stage, closing_stages, linearised, solve
+from mocap.editing.solver import REACH, Curve, Stage, closing_stages, solve
 from tests.editing.wishes import bar, bones, captured, smoothness, stone, walk
 from tests.refusals import refusals, told
 from tests.strategies import seeds
@@ -26,8 +26,9 @@ SPLINES = Stage(knots=0.125)
 
 def linear(clip, body, change, pins):
     """Return residuals and Jacobian of a clip with a change."""
-    moved = displaced(clip, body.displacement(change, len(clip.skeleton)))
-    return linearised(poses_of(moved), body, change, pins)
+    displacement = body.displacement(change, len(clip.skeleton))
+    poses = poses_of(displaced(clip, displacement))
+    return pins.linearised(poses, body.world_axes(poses, displacement))
 
 
 def worst(gap):
@@ -139,6 +140,21 @@ def test_all_frames_at_once_do_not_jolt(fps):
     assert smoothness(solved.motion, clip) < 1.15
     assert bones(solved.motion) < 1e-12
     assert solved.worst[-1] == pytest.approx(pin_errors(solved.motion, pins).max())
+
+
+LED = replace(SPLINES, lead=0.5)
+
+
+@pytest.mark.parametrize("stages", [[REACH], [SPLINES], [LED], [LED, *closing_stages()]])
+def test_the_solver_knows_the_errors_of_its_result(stages):
+    """They are those of its last iterate: in frames it left alone, under bars, and on axes that are led."""
+    clip = walk(30.0)
+    turned = keep_turned(clip, "thorax", range(40, 60))
+    pins = join_pins(bar(clip, 1.3, 50), stone(clip, 0.15), turned)
+    few = [replace(stage, passes=5) for stage in stages]
+    solved = solve(clip, pins, few, quiet=True, frames=slice(20, 90))
+    assert 1e-12 < solved.errors.max() < pin_errors(clip, pins).max()
+    np.testing.assert_allclose(solved.errors, pin_errors(solved.motion, pins), atol=1e-12)
 
 
 def test_few_knots_leave_centimetres_and_many_jolt(real_data):
