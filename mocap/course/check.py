@@ -396,7 +396,7 @@ class Check:
 
 def _shape(answer: Any) -> tuple[int, ...] | None:  # noqa: ANN401
     """Return the shape of an answer; None for one without, such as a set or a ragged list."""
-    if isinstance(answer, set | dict | str):
+    if isinstance(answer, set | dict):
         return None
     is_sequence = isinstance(answer, list | tuple | np.ndarray)
     numbers = as_numbers(answer)

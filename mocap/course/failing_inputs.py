@@ -124,9 +124,10 @@ def failing_input(function: Callable[..., Any], arguments: tuple[Any, ...], want
 def _parameters(function: Callable[..., Any], count: int) -> list[str]:
     """Return how each argument is introduced: by the name of its parameter, if the function has them."""
     try:
-        names = list(inspect.signature(function).parameters)
+        parameters = inspect.signature(function).parameters
     except (TypeError, ValueError):
-        names = []
+        return [""] * count
+    names = [name for name, parameter in parameters.items() if parameter.kind != parameter.VAR_POSITIONAL]
     return [f"{name} = " for name in names] if len(names) == count else [""] * count
 
 

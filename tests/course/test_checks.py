@@ -109,7 +109,7 @@ def unfinished(x):
         (broken, 'raises IndexError in `return x["y"]`'),
         ("no function", "raises TypeError"),
         (lambda: 0, "raises TypeError"),
-        (lambda x: "two", "you return two; it should be ["),
+        (lambda x: "two", "has the shape ()"),
     ],
 )
 def test_what_a_check_says_when_a_function_fails_again(answer, message, capsys):
