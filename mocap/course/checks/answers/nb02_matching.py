@@ -108,11 +108,12 @@ def right_inner_minima(grid: Array, below: float) -> set[tuple[int, int]]:
 
 
 def mistake_border_included(grid: Array, below: float) -> object:
-    return {tuple(map(int, place)) for place in local_minima(grid, below)}
+    framed = np.pad(grid, 1, constant_values=np.inf)
+    return {(row - 1, column - 1) for row, column in lower_than(framed, below, ALL)}
 
 
 def mistake_no_threshold(grid: Array, below: float) -> object:
-    return inside(grid, local_minima(grid))
+    return lower_than(grid, np.inf, ALL)
 
 
 def mistake_all_below_threshold(grid: Array, below: float) -> object:
@@ -120,7 +121,7 @@ def mistake_all_below_threshold(grid: Array, below: float) -> object:
 
 
 def mistake_threshold_squared(grid: Array, below: float) -> object:
-    return inside(grid, local_minima(grid, below**2))
+    return lower_than(grid, below**2, ALL)
 
 
 def mistake_column_of_minimum_first(grid: Array, below: float) -> object:
@@ -128,7 +129,7 @@ def mistake_column_of_minimum_first(grid: Array, below: float) -> object:
 
 
 def mistake_maxima(grid: Array, below: float) -> object:
-    return inside(grid, local_minima(-grid))
+    return lower_than(-grid, np.inf, ALL)
 
 
 def mistake_equal_neighbours_allowed(grid: Array, below: float) -> object:
@@ -161,3 +162,11 @@ def mistake_none_found(grid: Array, below: float) -> object:
 
 def mistake_flat_indices(grid: Array, below: float) -> object:
     return [row * grid.shape[1] + column for row, column in right_inner_minima(grid, below)]
+
+
+def mistake_plain_minima(grid: Array, below: float) -> object:
+    return {tuple(map(int, place)) for place in local_minima(grid, below)}
+
+
+def mistake_plain_minima_inside(grid: Array, below: float) -> object:
+    return inside(grid, local_minima(grid, below))
