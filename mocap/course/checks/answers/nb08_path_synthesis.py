@@ -188,20 +188,20 @@ def mistake_first_point_included(walk: Walk, ahead: Points, line: Line, limit: f
 
 def mistake_steps_not_added_up(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
     rotation, translation, along, _ = walk
-    points = rotation * ahead[1:] + translation
-    return min(float((abs(points - line(along + abs(np.diff(ahead)))) ** 2).sum()), limit)
+    s = np.asarray(along + abs(np.diff(ahead)))
+    return min(float((abs(rotation * ahead[1:] + translation - line(s)) ** 2).sum()), limit)
 
 
 def mistake_line_a_frame_behind(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
     rotation, translation, along, _ = walk
     steps = np.append(0, abs(np.diff(ahead))[:-1])
-    points = rotation * ahead[1:] + translation
-    return min(float((abs(points - line(along + np.cumsum(steps))) ** 2).sum()), limit)
+    s = np.asarray(along + np.cumsum(steps))
+    return min(float((abs(rotation * ahead[1:] + translation - line(s)) ** 2).sum()), limit)
 
 
 def mistake_steps_without_abs(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
     rotation, translation, along, _ = walk
-    s = along + np.cumsum(np.diff(ahead).real)
+    s = np.asarray(along + np.cumsum(np.diff(ahead).real))
     return min(float((abs(rotation * ahead[1:] + translation - line(s)) ** 2).sum()), limit)
 
 
