@@ -1,7 +1,9 @@
 """How exercises check themselves: random input, one oracle, and hints for known mistakes.
 
 A check has a right function and typical wrong ones. It calls a student's function on random input and
-compares the results. If they agree with those of a wrong function, it prints the hint for that mistake. It
+compares the results. If they agree with those of a wrong function, it prints the hint for that mistake; else
+it looks for a mistake of any exercise, and else it shows the smallest input on which the function fails. The
+hint comes when the function fails for the second time: the first time, a check says what must be returned. It
 never raises an error and never shows a solution. The checks are in `course.checks`.
 """
 
@@ -24,6 +26,8 @@ import numpy as np
 
 from mocap._shared import records
 from mocap._shared.limits import Overdue
+from mocap.course.common_mistakes import Attempt, name_mistake
+from mocap.course.failing_inputs import failing_input, smallest
 from mocap.course.guarded_calls import guarded
 from mocap.errors import MocapError
 
@@ -31,11 +35,17 @@ Function = Callable[..., Any]
 Trial = tuple[tuple[Any, ...], Any, Any]
 """The arguments of a call, the right result, and the student's."""
 
-LONGEST_VALUE = 60  # characters of a wrong value that is shown
+LATER = "A hint comes when it fails again."
 
 
 class Verdict(NamedTuple):
     """The result of a check: whether the function is right, and a sentence or two.
+
+    Attributes
+    ----------
+    right : whether the function is right.
+    message : what is said of it.
+    unhinted : what is said instead when it fails for the first time; "" for the same.
 
     Examples
     --------
@@ -45,6 +55,12 @@ class Verdict(NamedTuple):
 
     right: bool
     message: str
+    unhinted: str = ""
+
+    @property
+    def without_hint(self) -> Verdict:
+        """What is said when the function fails for the first time."""
+        return Verdict(self.right, self.unhinted or self.message)
 
     def __str__(self) -> str:
         return f"{'✓' if self.right else '✗'} {self.message}"
@@ -68,16 +84,36 @@ def close(answer: Any, wanted: Any) -> bool:  # noqa: ANN401
         return bool(answer == wanted)
     try:
         kind = complex if np.iscomplexobj(wanted) else float
-        a = np.asarray(answer, kind)
+        a = as_real(answer) if kind is float else np.asarray(answer, kind)
         b = np.asarray(wanted, kind)
     except (TypeError, ValueError):
         return len(answer) == len(wanted) and all(map(close, answer, wanted))
     return a.shape == b.shape and np.allclose(a, b, rtol=1e-8, atol=1e-9, equal_nan=True)
 
 
+def as_real(answer: Any) -> Any:  # noqa: ANN401
+    """Convert an answer to real numbers.
+
+    Raises
+    ------
+    ValueError : if an imaginary part is not zero.
+
+    Examples
+    --------
+    >>> as_real([1 + 0j, 2])
+    array([1., 2.])
+    """
+    numbers = np.asarray(answer)
+    if np.iscomplexobj(numbers):
+        if np.any(abs(numbers.imag) > 1e-9):
+            raise ValueError("the answer is complex")
+        numbers = numbers.real
+    return np.asarray(numbers, float)
+
+
 def close_angles(answer: Any, wanted: Any) -> bool:  # noqa: ANN401
     """Check whether angles in radians are the same up to whole turns."""
-    a = np.asarray(answer, float)
+    a = as_real(answer)
     b = np.asarray(wanted, float)
     return close(np.cos(a), np.cos(b)) and close(np.sin(a), np.sin(b))
 
@@ -171,12 +207,15 @@ class Answers(records.NamedTuple):
     right : from these arguments to the right answer.
     mistakes : known wrong answers, by their names.
     is_same : compares an answer with the right one.
+    unseen : from the arguments after a call, and its answer, to the name of a mistake that does not show in
+        the answer, or "".
     """
 
     draw: Function
     right: Function
     mistakes: Mapping[str, Function]
     is_same: Callable[[Any, Any], bool] = close
+    unseen: Callable[[tuple[Any, ...], Any], str] = lambda *_: ""
 
 
 class Check:
@@ -194,6 +233,7 @@ class Check:
     truth : the oracle: takes the arguments of a call, returns the right answer.
     trials : number of inputs that are tried.
     seconds : the time limit of all calls; right functions take a hundredth of it.
+    has_failed : whether a call in this kernel has found something wrong; from then on, calls print hints.
 
     Examples
     --------
@@ -205,7 +245,7 @@ class Check:
     >>> hints = {"square": "That is the square.", "added": "One too many."}
     >>> double = Check("double", Texts("twice the number", "What is 2 times x?", hints), lambda: answers)
     >>> double(lambda x: ...)
-    ✗ double: not there yet. It must return twice the number. Hint: What is 2 times x?
+    ✗ double: not there yet. It must return twice the number.
     >>> double(lambda x: x**2)
     ✗ double: That is the square.
     >>> double(lambda x: x + x)
@@ -223,6 +263,7 @@ class Check:
         self.minutes = texts.minutes
         self.trials = texts.trials
         self.truth: Function = self._right  # the same object at each look
+        self.has_failed = False
         self._load = load
 
     @cached_property
@@ -254,8 +295,10 @@ class Check:
         return list(dict.fromkeys(_package_calls(self.answers.right)))
 
     def __call__(self, function: Function) -> None:
-        """Print the verdict on a student's function."""
-        print(self.verdict(function))
+        """Print the verdict on a student's function, without a hint when it fails for the first time."""
+        verdict = self.verdict(function)
+        print(verdict if self.has_failed else verdict.without_hint)
+        self.has_failed = self.has_failed or not verdict.right
 
     def require(self, function: Function) -> None:
         """Raise an AssertionError that says what is wrong, for nbgrader, which takes warnings for errors."""
@@ -277,17 +320,18 @@ class Check:
         try:
             with guarded(self.seconds):
                 wrong = self._try(function, trials, seed)
+                if not wrong:
+                    return self._judged(function, trials)
         except AnswersWithheld as error:
             return Verdict(False, str(error))
         except Overdue:
             begun = f"{len(trials)} of {self.trials} inputs were done"
             wrong = f"stopped after {self.seconds:g} s, when {begun}. Does a loop never end?"
         except NotImplementedError:
-            wrong = f"not there yet. It must return {self.asks}. Hint: {self.start}"
+            return self._hinted(f"not there yet. It must return {self.asks}.", f"Hint: {self.start}")
         except (Exception, SystemExit) as error:  # it may raise anything, and the page shows it
             wrong = _raised(error, function)
-        wrong = wrong or self._wrong(trials)
-        return Verdict(not wrong, f"{self.name}: {wrong or f'right on {self.trials} random inputs.'}")
+        return Verdict(False, f"{self.name}: {wrong}")
 
     def _try(self, function: Function, trials: list[Trial], seed: int) -> str:
         """Call a function on random inputs, until it changes one; say so if it did."""
@@ -302,17 +346,37 @@ class Check:
                 raise NotImplementedError
             if any(map(altered, arguments, used)):
                 return CHANGES
+            mistake = self._unseen_mistake(used, answer)
+            if mistake:
+                return self.texts.mistakes[mistake]
         return ""
 
-    def _wrong(self, trials: list[Trial]) -> str:
-        """Describe what is wrong with the answers: the mistake that they fit, or else the first of them."""
-        failed = [(wanted, answer) for _, wanted, answer in trials if not self._is_same(answer, wanted)]
-        if not failed:
+    def _unseen_mistake(self, used: tuple[Any, ...], answer: Any) -> str:  # noqa: ANN401
+        """Name a mistake that an answer does not show; "" for an answer of another form."""
+        try:
+            return self.answers.unseen(used, answer)
+        except Exception:  # the answer may have any type
             return ""
+
+    def _hinted(self, sentence: str, hint: str) -> Verdict:
+        """Return a verdict of a sentence that is always said, and a hint that may be kept for later."""
+        return Verdict(False, f"{self.name}: {sentence} {hint}", f"{self.name}: {sentence}")
+
+    def _judged(self, function: Function, trials: list[Trial]) -> Verdict:
+        """Return the verdict on some answers: right, or the mistake that they fit, or a failing input."""
+        failed = [trial for trial in trials if not self._is_same(trial[2], trial[1])]
+        if not failed:
+            return Verdict(True, f"{self.name}: right on {self.trials} random inputs.")
+        unhinted = f"{self.name}: not right yet. It must return {self.asks}. {LATER}"
         for mistake, hint in self.mistakes:
             if all(self._is_same(answer, mistake(*copy.deepcopy(used))) for used, _, answer in trials):
-                return hint
-        return self._first_wrong(*failed[0])
+                return Verdict(False, f"{self.name}: {hint}", unhinted)
+        if any(answer is None for _, _, answer in failed):
+            return Verdict(False, f"{self.name}: your function returns None; does it end in `return`?")
+        attempts = [Attempt(*trial) for trial in trials]
+        named = name_mistake(attempts, self._is_same)
+        hint = named or self._unnamed(function, *smallest(failed))
+        return Verdict(False, f"{self.name}: {hint}", unhinted)
 
     def _is_same(self, answer: Any, wanted: Any) -> bool:  # noqa: ANN401
         try:
@@ -320,19 +384,23 @@ class Check:
         except Exception:  # the answer has a type that cannot be compared
             return False
 
-    def _first_wrong(self, wanted: Any, answer: Any) -> str:  # noqa: ANN401
-        if answer is None:
-            return "your function returns None; does it end in `return`?"
-        if isinstance(wanted, set | frozenset):  # students list its items in any type
-            return f"some are missing or wrong. It must return {self.asks}. Hint: {self.start}"
-        shape = np.shape(as_numbers(answer))
-        wanted_shape = np.shape(as_numbers(wanted))
-        if shape != wanted_shape:
-            return f"your answer has the shape {shape}; it should be {wanted_shape}."
-        if wanted_shape == () and not isinstance(wanted, str):
-            numbers = f"you return {_short(answer)} where it should be {_short(wanted)}"
-            return f"{numbers}. It must return {self.asks}."
-        return f"the shape is right, the values are wrong. It must return {self.asks}. Hint: {self.start}"
+    def _unnamed(self, function: Function, arguments: tuple[Any, ...], wanted: Any, answer: Any) -> str:  # noqa: ANN401
+        """Describe a wrong answer that fits no known mistake."""
+        shape = _shape(answer)
+        wanted_shape = _shape(wanted)
+        if shape is not None and wanted_shape is not None and shape != wanted_shape:
+            returned = f"your answer has the shape {shape}; it should be {wanted_shape}."
+            return f"{returned} It must return {self.asks}."
+        return failing_input(function, arguments, wanted, answer)
+
+
+def _shape(answer: Any) -> tuple[int, ...] | None:  # noqa: ANN401
+    """Return the shape of an answer; None for one without, such as a set or a ragged list."""
+    if isinstance(answer, set | dict):
+        return None
+    is_sequence = isinstance(answer, list | tuple | np.ndarray)
+    numbers = as_numbers(answer)
+    return None if numbers is None and is_sequence else np.shape(numbers)
 
 
 def _package_calls(function: Function) -> Iterator[str]:
@@ -369,10 +437,6 @@ def as_numbers(value: Any) -> Any:  # noqa: ANN401
         return np.asarray(value, complex)
     except (TypeError, ValueError):
         return None
-
-
-def _short(value: Any) -> str:  # noqa: ANN401
-    return f"{value:.4g}" if isinstance(value, (float, np.floating)) else repr(value)[:LONGEST_VALUE]
 
 
 def place_of(error: BaseException, function: Function) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import subprocess
@@ -35,6 +36,9 @@ def stored() -> Path:
 def course_folder(copy: Path) -> Path:
     """Copy the notebooks to a folder to work in, so that those of a checkout stay as they are.
 
+    The copies have no outputs of checks, because these say what an exercise must return before anybody has
+    thought about it.
+
     Parameters
     ----------
     copy : the folder for the copy; notebooks that it holds already stay as they are.
@@ -48,10 +52,42 @@ def course_folder(copy: Path) -> Path:
         copy.mkdir(parents=True, exist_ok=True)
         for file in filter(Path.is_file, sorted(folder.iterdir())):
             if not (copy / file.name).exists():
-                shutil.copy(file, copy)
+                copy_file(file, copy / file.name)
     except OSError as error:
         raise MocapError(f"Cannot copy the notebooks to {copy}: {error.strerror}.") from error
     return copy
+
+
+def copy_file(file: Path, copy: Path) -> None:
+    """Copy a file; of a notebook, without what its checks have printed.
+
+    Parameters
+    ----------
+    file : a notebook or a page.
+    copy : the file to write.
+    """
+    text = file.read_text("utf-8") if file.suffix == ".ipynb" else ""
+    if '"check:' in text:
+        write_file(copy, without_verdicts(text))
+    else:
+        shutil.copy(file, copy)
+
+
+def without_verdicts(text: str) -> str:
+    """Remove the outputs of the cells that check an exercise from the text of a notebook.
+
+    Examples
+    --------
+    >>> cell = {"metadata": {"tags": ["check:speed"]}, "outputs": ["not there yet"], "execution_count": 3}
+    >>> json.loads(without_verdicts(json.dumps({"cells": [cell]})))["cells"][0]["outputs"]
+    []
+    """
+    notebook = json.loads(text)
+    for cell in notebook["cells"]:
+        if any(tag.startswith("check:") for tag in cell["metadata"].get("tags", [])):
+            cell["outputs"] = []
+            cell["execution_count"] = None
+    return json.dumps(notebook, ensure_ascii=False, indent=1) + "\n"
 
 
 def open_course(copy: Path, options: Sequence[str] = ()) -> int:
@@ -114,7 +150,7 @@ def build_lite(notebooks: Path, out: Path) -> Path:
         _call(folder, ["pip", "wheel", "--no-deps", "--wheel-dir", wheels, checkout.resolve()])
         contents.mkdir()
         for file in notebooks_in(notebooks):
-            notebook = read(file)
+            notebook = library().reads(without_verdicts(library().writes(read(file))), as_version=4)
             notebook.cells.insert(1, library().v4.new_code_cell(INSTALL, id="install"))
             write_file(contents / file.name, library().writes(notebook))
         for page in notebooks.glob("[A-Z]*.md"):

@@ -11,6 +11,8 @@ import pytest
 
 from mocap.course import checks
 from mocap.course.check import Answers, Check, Texts, altered, close, close_angles, close_rotations
+from mocap.course.common_mistakes import Attempt, name_mistake
+from mocap.course.failing_inputs import failing_input, smallest
 from tests.course.told import frozen, told
 
 ALL = checks.all_checks()
@@ -98,8 +100,11 @@ def unfinished(x):
         (unfinished, "✗ double: not there yet"),
         (lambda x: None, "returns None; does it end in `return`?"),
         (lambda x: x[:2], r"has the shape (2,); it should be (3,)"),
-        (lambda x: 3 * x, "the shape is right, the values are wrong"),
-        (lambda x: 2 * x * np.nan, "the values are wrong"),
+        (lambda x: 3 * x, "your values are 1.5 times the right ones"),
+        (
+            lambda x: 2 * x * np.nan,
+            "For x = [0.1257, -0.1321, 0.6404], you return [nan, nan, nan]; it should be",
+        ),
         (in_place, "changes its arguments"),
         (broken, 'raises IndexError in `return x["y"]`'),
         ("no function", "raises TypeError"),
@@ -107,9 +112,32 @@ def unfinished(x):
         (lambda x: "two", "has the shape ()"),
     ],
 )
-def test_what_a_check_says(answer, message, capsys):
-    assert DOUBLE(answer) is None
+def test_what_a_check_says_when_a_function_fails_again(answer, message, capsys):
+    check = copy(DOUBLE)
+    check.has_failed = True
+    assert check(answer) is None
     assert message in capsys.readouterr().out
+
+
+def test_a_hint_comes_when_a_function_fails_for_the_second_time(capsys):
+    check = Check("double", TEXTS, lambda: ANSWERS)
+    asks = "It must return twice the numbers."
+    for answer in (lambda x: ..., lambda x: ..., lambda x: x**2):
+        check(answer)
+    stub, stub_again, square = capsys.readouterr().out.splitlines()
+    assert stub == f"✗ double: not there yet. {asks}"
+    assert stub_again == f"{stub} Hint: What is 2 x?"
+    assert square == "✗ double: That is the square."
+    other = Check("double", TEXTS, lambda: ANSWERS)
+    other(lambda x: x**2)
+    assert capsys.readouterr().out == f"✗ double: not right yet. {asks} A hint comes when it fails again.\n"
+    with pytest.raises(AssertionError, match="That is the square"):  # nbgrader gets it at once
+        Check("double", TEXTS, lambda: ANSWERS).require(lambda x: x**2)
+
+
+def test_a_wrong_type_is_told_at_once(capsys):
+    Check("double", TEXTS, lambda: ANSWERS)(broken)
+    assert "raises IndexError" in capsys.readouterr().out
 
 
 def test_a_function_that_never_ends_is_stopped_and_counts_the_inputs_that_were_done():
@@ -126,13 +154,13 @@ def test_a_function_that_never_ends_is_stopped_and_counts_the_inputs_that_were_d
 
 def test_items_in_another_form_are_not_judged_by_their_shape():
     given = checks.inner_minima.verdict(lambda grid, below: np.zeros((7, 2))).message
-    assert "some are missing or wrong" in given and "shape" not in given
+    assert "is missing and (0, 0) does not belong to the answer" in given
 
 
 def test_a_wrong_number_is_told_beside_the_right_one():
     answers = Answers(draw=lambda rng: (2.0,), right=lambda x: x, mistakes={})
     check = Check("f", Texts("x", "", {}, trials=1), lambda: answers)
-    assert "you return 3 where it should be 2." in check.verdict(lambda x: 3.0).message
+    assert "For x = 2, you return 3; it should be 2." in check.verdict(lambda x: 3.0).message
 
 
 @pytest.mark.parametrize(
@@ -189,3 +217,87 @@ def test_a_function_that_writes_into_a_motion_is_told_so():
         return checks.mix.truth(a, b, alpha)
 
     assert "changes its arguments" in checks.mix.verdict(mix).message
+
+
+def test_the_number_and_the_vector_of_a_product_beside_each_other_are_named():
+    def hamilton(a, b):
+        return a[0] * b[0] - a[1:] @ b[1:], a[0] * b[1:] + b[0] * a[1:] + np.cross(a[1:], b[1:])
+
+    assert "nested: join them into one flat array" in checks.hamilton.verdict(hamilton).message
+
+
+@pytest.mark.parametrize(("part", "said"), [(0, "part 1 of 2 alone"), (1, "part 2 of 2 alone")])
+def test_one_part_of_a_pair_is_told_which_it_is(part, said):
+    assert said in checks.mix.verdict(lambda *given: checks.mix.truth(*given)[part]).message
+
+
+@pytest.mark.parametrize(
+    ("wrong", "wanted", "said"),
+    [
+        (lambda w: np.degrees(w), 0.5, "that is in degrees"),
+        (lambda w: w + 0.1j, 0.5, "your answer is complex"),
+        (lambda w: w[::-1], np.arange(3.0), "in reverse order"),
+        (lambda w: w.T, np.arange(6.0).reshape(2, 3), "transposed"),
+        (lambda w: [w], [1.0, 2.0], "inside another list"),
+        (lambda w: sum(w), [1.0, 2.0], "that is the sum of the right values"),
+        (lambda w: [*w, *w], [1, 2], "more than once"),
+        (lambda w: np.roll(w, 1), np.array([3.0, 1, 2]), "in the wrong order"),
+        (lambda w: w - 1, np.array([3, 5]), "one too small"),
+        (lambda w: np.isin(np.arange(9), w), np.array([3, 5]), "that is a mask"),
+        (lambda w: np.flatnonzero(w), np.arange(9) > 6, "those are indices"),
+        (lambda w: w[::-1], (1.0, [2.0, 3.0]), "in reverse order"),
+        (lambda w: w[:2], (1.0, [2.0], 3), "2 parts; it should have 3"),
+        (lambda w: w + 1.234, 0.5, ""),
+    ],
+)
+def test_mistakes_of_any_exercise_are_named(wrong, wanted, said):
+    named = name_mistake([Attempt((), wanted, wrong(wanted))], close)
+    assert said in named and bool(said) == bool(named)
+
+
+def test_values_at_the_right_places_are_not_the_places():
+    costs = np.array([3.0, 1.0, 2.0])
+    attempt = Attempt((costs,), np.array([1, 2]), np.array([1.0, 2.0]))
+    assert "values at the right places" in name_mistake([attempt], close)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_an_unnamed_wrong_answer_shows_a_small_failing_input_in_few_words(name):
+    check = ALL[name]
+
+    def nonsense(*arguments):
+        return check.truth(*arguments), "nonsense", 7
+
+    message = check.verdict(nonsense).message
+    assert len(message) <= 460 and "\n" not in message
+
+
+def test_the_smallest_failing_input_is_shown():
+    big, small = {1: [2], 2: [3], 3: []}, {1: []}
+    trials = [((big,), 0, 1), ((small,), 0, 1), ((big,), 2, 1)]
+    assert smallest(trials) == trials[1]
+    assert failing_input(len, ([0.5] * 99,), {"a": [1]}, {"a": [2]}).endswith(
+        "at a you return [2]; it should be [1]."
+    )
+
+
+def test_equal_numbers_tell_lower_from_lower_or_equal():
+    def minima(grid, below):
+        inner = [(i, j) for i in range(1, len(grid) - 1) for j in range(1, len(grid[0]) - 1)]
+        return [
+            p
+            for p in inner
+            if grid[p] < below and grid[p] <= grid[p[0] - 1 : p[0] + 2, p[1] - 1 : p[1] + 2].min()
+        ]
+
+    assert "equal ones do not count" in checks.inner_minima.verdict(minima).message
+
+
+def test_a_search_that_asks_twice_for_the_edges_is_told_so():
+    def search(ways, start, done):
+        found = checks.cheapest_walk.truth(ways, start, done)
+        for state in 20 * [start]:
+            ways(state)
+        return found
+
+    assert "more often than you expand" in checks.cheapest_walk.verdict(search).message

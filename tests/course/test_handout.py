@@ -193,6 +193,22 @@ def test_notebooks_are_copied_and_edited_ones_are_kept(monkeypatch, tmp_path):
     assert (mine / "01-next.ipynb").read_text() == "edited"
 
 
+def test_copies_of_notebooks_have_no_outputs_of_checks_and_are_else_the_same(tmp_path):
+    opening.course_folder(tmp_path)
+    count = 0
+    for file in sorted(stored().glob("0*.ipynb")):
+        original = nbformat.read(file, 4)
+        copied = nbformat.read(tmp_path / file.name, 4)
+        for kept, cell in zip(original.cells, copied.cells, strict=True):
+            if any(tag.startswith("check:") for tag in kept.metadata.get("tags", [])):
+                assert kept.outputs and not cell.outputs
+                kept.outputs = []
+                kept.execution_count = None
+                count += 1
+        assert original == copied
+    assert count >= 22
+
+
 @pytest.mark.sweep
 def test_jupyterlite_is_built_with_the_package_inside(tmp_path, capsys):
     pytest.importorskip("jupyterlite_pyodide_kernel", reason="pip install '.[lite]'")

@@ -49,7 +49,9 @@ def _answers_of(stem: str, name: str, mistakes: tuple[str, ...]) -> Answers:
     draw = functions[f"draw_{name}"]
     right = functions[f"right_{name}"]
     is_same = functions.get(f"same_{name}", close)
-    return Answers(draw, right, {mistake: functions[f"mistake_{mistake}"] for mistake in mistakes}, is_same)
+    unseen = functions.get(f"unseen_{name}", lambda *_: "")
+    wrong = {mistake: functions[f"mistake_{mistake}"] for mistake in mistakes}
+    return Answers(draw, right, wrong, is_same, unseen)
 
 
 def withhold() -> None:

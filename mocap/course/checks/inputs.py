@@ -33,6 +33,21 @@ def ways_from(lengths: dict[int, dict[int, float]], longest: int, state: State) 
     return [(length, (end, walked + 1)) for end, length in lengths[node].items()]
 
 
+def counted_ways_from(
+    requests: list[State], lengths: dict[int, dict[int, float]], longest: int, state: State
+) -> list[tuple[float, State]]:
+    """Return the edges that leave the end of a walk, as `ways_from` does, and note the request.
+
+    Examples
+    --------
+    >>> requests = []
+    >>> counted_ways_from(requests, {1: {2: 0.5}, 2: {}}, 3, (1, 0)), requests
+    ([(0.5, (2, 1))], [(1, 0)])
+    """
+    requests.append(state)
+    return ways_from(lengths, longest, state)
+
+
 def is_at(goal: int, state: State) -> bool:
     """Return whether a walk is at its goal.
 

@@ -32,6 +32,38 @@ def mistake_x_and_y(positions: Array, fps: float) -> object:
     return np.hypot(*np.diff(positions[:, :2], axis=0).T) * fps
 
 
+def mistake_one_coordinate(positions: Array, fps: float) -> object:
+    return np.abs(np.diff(positions[:, 0])) * fps
+
+
+def mistake_steps_with_signs(positions: Array, fps: float) -> object:
+    return np.diff(positions[:, 0]) * fps
+
+
+def mistake_components(positions: Array, fps: float) -> object:
+    return np.diff(positions[:, [0, 2]], axis=0) * fps
+
+
+def mistake_squared_steps(positions: Array, fps: float) -> object:
+    return (np.diff(positions[:, [0, 2]], axis=0) ** 2).sum(axis=1) * fps
+
+
+def mistake_squared_speeds(positions: Array, fps: float) -> object:
+    return right_speed(positions, fps) ** 2
+
+
+def mistake_sum_of_coordinates(positions: Array, fps: float) -> object:
+    return np.abs(np.diff(positions[:, [0, 2]], axis=0)).sum(axis=1) * fps
+
+
+def mistake_central_differences(positions: Array, fps: float) -> object:
+    return np.hypot(*np.gradient(positions[:, [0, 2]], axis=0).T) * fps
+
+
+def mistake_distance_from_start(positions: Array, fps: float) -> object:
+    return np.hypot(*(positions[1:] - positions[0])[:, [0, 2]].T) * fps
+
+
 # ---- cheapest
 
 
@@ -62,3 +94,16 @@ def mistake_distance_itself(grid: Array, minima: Indices) -> object:
 
 def mistake_column_first(grid: Array, minima: Indices) -> object:
     return right_cheapest(grid, minima)[::-1]
+
+
+def mistake_first_in_list(grid: Array, minima: Indices) -> object:
+    return minima[0]
+
+
+def mistake_last_in_list(grid: Array, minima: Indices) -> object:
+    return minima[-1]
+
+
+def mistake_looked_up_transposed(grid: Array, minima: Indices) -> object:
+    rows, columns = grid.shape
+    return minima[np.argmin(grid[minima[:, 1] % rows, minima[:, 0] % columns])]

@@ -43,6 +43,35 @@ def mistake_number_by_number(a: Array, b: Array) -> object:
     return a * b
 
 
+def mistake_vector_by_number_missing(a: Array, b: Array) -> object:
+    number, *_ = right_hamilton(a, b)
+    return np.append(number, np.cross(a[1:], b[1:]))
+
+
+def mistake_second_vector_missing(a: Array, b: Array) -> object:
+    return right_hamilton(a, b) - np.append(0, b[0] * a[1:])
+
+
+def mistake_first_vector_missing(a: Array, b: Array) -> object:
+    return right_hamilton(a, b) - np.append(0, a[0] * b[1:])
+
+
+def mistake_dot_product_missing(a: Array, b: Array) -> object:
+    return right_hamilton(a, b) + np.array([a[1:] @ b[1:], 0, 0, 0])
+
+
+def mistake_number_last(a: Array, b: Array) -> object:
+    return np.roll(right_hamilton(a, b), -1)
+
+
+def mistake_conjugated_second(a: Array, b: Array) -> object:
+    return rotations.multiply(a, rotations.inverse(b))
+
+
+def mistake_conjugated_first(a: Array, b: Array) -> object:
+    return rotations.multiply(rotations.inverse(a), b)
+
+
 # ---- climb
 
 
@@ -110,3 +139,33 @@ def mistake_turned_by_joint_alone(skeleton: Skeleton, turns: Array, joint: int) 
         point = point + matrices[joint] @ offset
         joint = parent
     return point
+
+
+def mistake_single_step(skeleton: Skeleton, turns: Array, joint: int) -> object:
+    parent = int(skeleton.parents[joint])
+    return rotations.rotate(turns[parent], skeleton.offsets[joint])
+
+
+def mistake_root_offset_included(skeleton: Skeleton, turns: Array, joint: int) -> object:
+    top = rotations.rotate(turns[0], np.zeros(3)) + skeleton.offsets[0]
+    return right_climb(skeleton, turns, joint) + top
+
+
+def mistake_turned_backwards(skeleton: Skeleton, turns: Array, joint: int) -> object:
+    return right_climb(skeleton, rotations.inverse(turns), joint)
+
+
+def mistake_offset_of_joint_not_turned(skeleton: Skeleton, turns: Array, joint: int) -> object:
+    point = np.zeros(3)
+    matrices = rotations.to_matrix(turns)
+    while joint > 0:
+        parent = int(skeleton.parents[joint])
+        point = matrices[parent] @ point + skeleton.offsets[joint]
+        joint = parent
+    return point
+
+
+def mistake_offset_of_parent(skeleton: Skeleton, turns: Array, joint: int) -> object:
+    offsets = np.vstack([skeleton.offsets[skeleton.parents[1:]], np.zeros((1, 3))])
+    moved = Skeleton(skeleton.names, skeleton.parents, np.roll(offsets, 1, axis=0))
+    return right_climb(moved, turns, joint)

@@ -14,6 +14,27 @@ def inside(grid: Array, minima: Indices) -> set[tuple[int, int]]:
     return {(int(row), int(column)) for row, column in minima[is_inside]}
 
 
+STRAIGHT = ((-1, 0), (1, 0), (0, -1), (0, 1))  # above, below, left, right
+DIAGONAL = ((-1, -1), (-1, 1), (1, -1), (1, 1))
+ALL = (*STRAIGHT, *DIAGONAL)
+
+
+def lower_than(grid: Array, below: float, neighbours: tuple[tuple[int, int], ...]) -> set[tuple[int, int]]:
+    """Return the inner entries under a threshold that are lower than some of their neighbours."""
+    is_low = grid < below
+    for rows, columns in neighbours:
+        is_low &= grid < np.roll(grid, (-rows, -columns), axis=(0, 1))
+    return inside(grid, np.argwhere(is_low))
+
+
+def equal_or_lower(grid: Array, below: float) -> Indices:
+    """List the entries under a threshold that are not higher than any neighbour."""
+    is_low = grid < below
+    for rows, columns in ALL:
+        is_low &= grid <= np.roll(grid, (-rows, -columns), axis=(0, 1))
+    return np.argwhere(is_low)
+
+
 # ---- best_shift
 
 
@@ -45,23 +66,54 @@ def mistake_z_first(points: Array, moved: Array, angle: float) -> object:
     return right_best_shift(points, moved, angle)[::-1]
 
 
+def mistake_angle_converted(points: Array, moved: Array, angle: float) -> object:
+    return right_best_shift(points, moved, float(np.radians(angle)))
+
+
+def mistake_angle_in_degrees(points: Array, moved: Array, angle: float) -> object:
+    return right_best_shift(points, moved, float(np.degrees(angle)))
+
+
+def mistake_height_included(points: Array, moved: Array, angle: float) -> object:
+    return points.mean(0) - turned(moved, angle).mean(0)
+
+
+def mistake_x_and_y(points: Array, moved: Array, angle: float) -> object:
+    return (points.mean(0) - turned(moved, angle).mean(0))[:2]
+
+
+def mistake_points_rotated(points: Array, moved: Array, angle: float) -> object:
+    return (turned(points, angle).mean(0) - moved.mean(0))[[0, 2]]
+
+
+def mistake_first_points_alone(points: Array, moved: Array, angle: float) -> object:
+    return (points[0] - turned(moved, angle)[0])[[0, 2]]
+
+
 # ---- inner_minima
 
 
 def draw_inner_minima(rng: np.random.Generator) -> Arguments:
-    return rng.uniform(0, 1, rng.integers(7, 12, 2)), float(rng.uniform(0.2, 0.6))
+    """Draw a grid and a threshold; in one grid of two, some entries are equal, and some at the threshold."""
+    grid = rng.uniform(0, 1, rng.integers(7, 12, 2))
+    below = float(rng.uniform(0.2, 0.6))
+    if rng.uniform() < 0.5:
+        return np.round(16 * grid) / 16, round(16 * below) / 16
+    return grid, below
 
 
 def right_inner_minima(grid: Array, below: float) -> set[tuple[int, int]]:
-    return inside(grid, local_minima(grid, below))
+    """Return the minima; `local_minima` counts the first of equal neighbours, which is not lower."""
+    return inside(grid, local_minima(grid, below)) & lower_than(grid, below, ALL)
 
 
 def mistake_border_included(grid: Array, below: float) -> object:
-    return {tuple(map(int, place)) for place in local_minima(grid, below)}
+    framed = np.pad(grid, 1, constant_values=np.inf)
+    return {(row - 1, column - 1) for row, column in lower_than(framed, below, ALL)}
 
 
 def mistake_no_threshold(grid: Array, below: float) -> object:
-    return inside(grid, local_minima(grid))
+    return lower_than(grid, np.inf, ALL)
 
 
 def mistake_all_below_threshold(grid: Array, below: float) -> object:
@@ -69,7 +121,7 @@ def mistake_all_below_threshold(grid: Array, below: float) -> object:
 
 
 def mistake_threshold_squared(grid: Array, below: float) -> object:
-    return inside(grid, local_minima(grid, below**2))
+    return lower_than(grid, below**2, ALL)
 
 
 def mistake_column_of_minimum_first(grid: Array, below: float) -> object:
@@ -77,4 +129,44 @@ def mistake_column_of_minimum_first(grid: Array, below: float) -> object:
 
 
 def mistake_maxima(grid: Array, below: float) -> object:
-    return inside(grid, local_minima(-grid))
+    return lower_than(-grid, np.inf, ALL)
+
+
+def mistake_equal_neighbours_allowed(grid: Array, below: float) -> object:
+    return inside(grid, equal_or_lower(grid, below))
+
+
+def mistake_at_threshold(grid: Array, below: float) -> object:
+    return right_inner_minima(grid, np.nextafter(below, np.inf))
+
+
+def mistake_four_neighbours(grid: Array, below: float) -> object:
+    return lower_than(grid, below, STRAIGHT)
+
+
+def mistake_diagonals_alone(grid: Array, below: float) -> object:
+    return lower_than(grid, below, DIAGONAL)
+
+
+def mistake_same_column(grid: Array, below: float) -> object:
+    return lower_than(grid, below, STRAIGHT[:2])
+
+
+def mistake_same_row(grid: Array, below: float) -> object:
+    return lower_than(grid, below, STRAIGHT[2:])
+
+
+def mistake_none_found(grid: Array, below: float) -> object:
+    return []
+
+
+def mistake_flat_indices(grid: Array, below: float) -> object:
+    return [row * grid.shape[1] + column for row, column in right_inner_minima(grid, below)]
+
+
+def mistake_plain_minima(grid: Array, below: float) -> object:
+    return {tuple(map(int, place)) for place in local_minima(grid, below)}
+
+
+def mistake_plain_minima_inside(grid: Array, below: float) -> object:
+    return inside(grid, local_minima(grid, below))

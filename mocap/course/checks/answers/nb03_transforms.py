@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Points
 from mocap.body.planar import PlanarTransform
 from mocap.course.check import close_angles
 from mocap.course.checks.answers.common import Arguments, clouds, same_pose, turned
@@ -21,6 +21,18 @@ def sums(points: Array, moved: Array) -> tuple[float, float]:
 def centred_sums(points: Array, moved: Array) -> tuple[float, float]:
     """Return the same sums of two clouds, each about its mean."""
     return sums(points - points.mean(0), moved - moved.mean(0))
+
+
+def complex_of(points: Array) -> Points:
+    """Return z + ix of a cloud's points about its mean."""
+    around_mean = points - points.mean(0)
+    return np.asarray(around_mean[:, 2] + 1j * around_mean[:, 0])
+
+
+def mirrored_sums(points: Array, moved: Array) -> tuple[float, float]:
+    """Return the parts of Σ g h of two centred clouds, without a conjugate: the imaginary one first."""
+    total = (complex_of(points) * complex_of(moved)).sum()
+    return float(total.imag), float(total.real)
 
 
 # ---- best_angle
@@ -57,6 +69,23 @@ def mistake_z_up(points: Array, moved: Array) -> object:
     return np.arctan2(*centred_sums(points[:, [0, 2, 1]], moved[:, [0, 2, 1]]))
 
 
+def mistake_mean_of_angles(points: Array, moved: Array) -> object:
+    return np.angle(complex_of(points) / complex_of(moved)).mean()
+
+
+def mistake_not_conjugated(points: Array, moved: Array) -> object:
+    sine, cosine = mirrored_sums(points, moved)
+    return np.arctan2(sine, cosine)
+
+
+def mistake_half_angle(points: Array, moved: Array) -> object:
+    return right_best_angle(points, moved) / 2
+
+
+def mistake_in_degrees(points: Array, moved: Array) -> object:
+    return np.degrees(right_best_angle(points, moved))
+
+
 # ---- undo
 
 
@@ -88,3 +117,24 @@ def mistake_translation_not_negated(angle: float, x: float, z: float) -> object:
 
 def mistake_angle_kept(angle: float, x: float, z: float) -> object:
     return (angle, *turned(np.array([-x, 0, -z]), -angle)[[0, 2]])
+
+
+def mistake_z_before_x(angle: float, x: float, z: float) -> object:
+    inverse = right_undo(angle, x, z)
+    return inverse[0], inverse[2], inverse[1]
+
+
+def mistake_unchanged(angle: float, x: float, z: float) -> object:
+    return (angle, x, z)
+
+
+def mistake_translation_kept(angle: float, x: float, z: float) -> object:
+    return (-angle, x, z)
+
+
+def mistake_translation_alone(angle: float, x: float, z: float) -> object:
+    return (angle, -x, -z)
+
+
+def mistake_angle_converted(angle: float, x: float, z: float) -> object:
+    return (-angle, *right_undo(float(np.radians(angle)), x, z)[1:])

@@ -48,6 +48,34 @@ def mistake_cubic(window: int) -> object:
     return cubic_weights(window)
 
 
+def mistake_never_zero(window: int) -> object:
+    return 1 - quintic_step(np.arange(1, window + 1) / (window + 1))
+
+
+def mistake_frame_middles(window: int) -> object:
+    return 1 - quintic_step((np.arange(window) + 0.5) / window)
+
+
+def mistake_coefficients(window: int) -> object:
+    return np.array([1.0, 0, 0, -10, 15, -6])
+
+
+def mistake_straight_line(window: int) -> object:
+    return 1 - np.arange(1, window + 1) / window
+
+
+def mistake_cosine(window: int) -> object:
+    return (1 + np.cos(np.pi * np.arange(1, window + 1) / window)) / 2
+
+
+def mistake_rising_frame_late(window: int) -> object:
+    return quintic_step(np.arange(window) / window)
+
+
+def mistake_one_missing(window: int) -> object:
+    return -quintic_step(np.arange(1, window + 1) / window)
+
+
 # ---- mix
 
 

@@ -57,6 +57,30 @@ def mistake_twice_the_same(frames: int, leaves: list[int], enters: list[int], wi
     return sorted([0, frames, *leaves, *(e + window for e in enters)])
 
 
+def mistake_frame_early(frames: int, leaves: list[int], enters: list[int], window: int) -> object:
+    return sorted({0, frames, *leaves, *(e + window - 1 for e in enters)})
+
+
+def mistake_frame_late(frames: int, leaves: list[int], enters: list[int], window: int) -> object:
+    return sorted({0, frames, *leaves, *(e + window + 1 for e in enters)})
+
+
+def mistake_window_at_leaves(frames: int, leaves: list[int], enters: list[int], window: int) -> object:
+    return sorted({0, frames, *(i + window for i in leaves), *enters})
+
+
+def mistake_enters_missing(frames: int, leaves: list[int], enters: list[int], window: int) -> object:
+    return sorted({0, frames, *leaves})
+
+
+def mistake_leaves_missing(frames: int, leaves: list[int], enters: list[int], window: int) -> object:
+    return sorted({0, frames, *(e + window for e in enters)})
+
+
+def mistake_plain_list(frames: int, leaves: list[int], enters: list[int], window: int) -> object:
+    return [0, *leaves, *(e + window for e in enters), frames]
+
+
 # ---- successors_of
 
 
@@ -132,3 +156,52 @@ def mistake_without_last_nodes(points: list[list[int]], links: list[Link], windo
 def mistake_both_directions(points: list[list[int]], links: list[Link], window: int) -> object:
     back = [(target, enter + window, source, leave - window) for source, leave, target, enter in links]
     return right_successors_of(points, [*links, *back], window)
+
+
+def mistake_without_stretches(points: list[list[int]], links: list[Link], window: int) -> object:
+    following = nodes_of(points)
+    for source, leave, target, enter in links:
+        following.setdefault((source, leave), []).append((target, enter + window))
+    return following
+
+
+def mistake_frames_alone(points: list[list[int]], links: list[Link], window: int) -> object:
+    return {
+        node: [frame for _, frame in ends]
+        for node, ends in right_successors_of(points, links, window).items()
+    }
+
+
+def mistake_transitions_replace_stretches(points: list[list[int]], links: list[Link], window: int) -> object:
+    following = right_successors_of(points, [], window)
+    for source, leave, target, enter in links:
+        following[source, leave] = [(target, enter + window)]
+    return following
+
+
+def mistake_first_clip_alone(points: list[list[int]], links: list[Link], window: int) -> object:
+    return {node: ends for node, ends in right_successors_of(points, links, window).items() if node[0] == 0}
+
+
+def mistake_predecessors(points: list[list[int]], links: list[Link], window: int) -> object:
+    following = right_successors_of(points, links, window)
+    leading = nodes_of(points)
+    for node, ends in following.items():
+        for end in ends:
+            leading.setdefault(end, []).append(node)
+    return leading
+
+
+def mistake_each_successor_once(points: list[list[int]], links: list[Link], window: int) -> object:
+    return {node: sorted(set(ends)) for node, ends in right_successors_of(points, links, window).items()}
+
+
+def mistake_same_clip(points: list[list[int]], links: list[Link], window: int) -> object:
+    return right_successors_of(
+        points, [(source, leave, source, enter) for source, leave, _, enter in links], window
+    )
+
+
+def mistake_window_at_start(points: list[list[int]], links: list[Link], window: int) -> object:
+    moved = [(source, leave + window, target, enter - window) for source, leave, target, enter in links]
+    return right_successors_of(points, moved, window)

@@ -1,6 +1,7 @@
 """Notebook 06: inputs, right answers and mistakes of `tarjan` and `component_to_keep`."""
 
 from collections import Counter
+from collections.abc import Callable
 from typing import Any
 
 import networkx as nx
@@ -12,6 +13,53 @@ from mocap.plain import components
 Successors = dict[int, list[int]]
 
 
+Lowered = Callable[[int, int], int]
+"""From a node's low link, and the number of a successor on the stack, to its new low link."""
+
+Taken = Callable[[list[int], int, int], tuple[list[int], list[int]]]
+"""From the stack, the place of a component's first node and its number to the component and the rest."""
+
+
+def from_first(stack: list[int], first: int, _: int) -> tuple[list[int], list[int]]:
+    """Take the nodes from the first one on, as is right."""
+    return stack[first:], stack[:first]
+
+
+def first_alone(stack: list[int], first: int, _: int) -> tuple[list[int], list[int]]:
+    """Take the nodes from the first one on, and call the first one the component."""
+    return stack[first : first + 1], stack[:first]
+
+
+def itself(stack: list[int], first: int, _: int) -> tuple[list[int], list[int]]:
+    """Take the first node, from the middle of the stack."""
+    return stack[first : first + 1], stack[:first] + stack[first + 1 :]
+
+
+def whole(stack: list[int], *_: int) -> tuple[list[int], list[int]]:
+    """Take all nodes."""
+    return stack, []
+
+
+def nothing(stack: list[int], first: int, _: int) -> tuple[list[int], list[int]]:
+    """Leave the component on the stack."""
+    return stack[first:], stack
+
+
+def all_but_first(stack: list[int], first: int, _: int) -> tuple[list[int], list[int]]:
+    """Take the nodes from the first one on, and leave it out of the component."""
+    return stack[first + 1 :], stack[:first]
+
+
+def last(stack: list[int], *_: int) -> tuple[list[int], list[int]]:
+    """Take one node."""
+    return stack[-1:], stack[:-1]
+
+
+def by_number(stack: list[int], _: int, number: int) -> tuple[list[int], list[int]]:
+    """Take the number of a node for its place on the stack."""
+    return stack[number:], stack[:number]
+
+
 class Search:
     """Tarjan's search, with what students forget in it.
 
@@ -20,7 +68,8 @@ class Search:
     successors : the nodes to which the edges of each node lead.
     finished_count : nodes whose component is complete count, too.
     passes_low : a node takes over the low link of the next one.
-    is_whole : a component has all nodes from its first one on.
+    lowered : the new low link of a node with an edge to a node on the stack.
+    takes : what is taken off the stack.
     """
 
     def __init__(
@@ -29,12 +78,14 @@ class Search:
         *,
         finished_count: bool = False,
         passes_low: bool = True,
-        is_whole: bool = True,
+        lowered: Lowered = min,
+        takes: Taken = from_first,
     ) -> None:
         self.successors = successors
         self.finished_count = finished_count
         self.passes_low = passes_low
-        self.is_whole = is_whole
+        self.lowered = lowered
+        self.takes = takes
         self.number: dict[int, int] = {}
         self.low: dict[int, int] = {}
         self.waiting: list[int] = []
@@ -54,17 +105,16 @@ class Search:
                 if self.passes_low:
                     self.low[node] = min(self.low[node], self.low[successor])
             elif self.finished_count or successor in self.waiting:
-                self.low[node] = min(self.low[node], self.number[successor])
+                self.low[node] = self.lowered(self.low[node], self.number[successor])
         return complete + self.leave(node)
 
     def leave(self, node: int) -> list[set[int]]:
         """Return the component whose first node this is, if it is one."""
         if self.low[node] != self.number[node]:
             return []
-        first = self.waiting.index(node)
-        component = set(self.waiting[first:]) if self.is_whole else {node}
-        del self.waiting[first:]
-        return [component]
+        first = self.waiting.index(node) if node in self.waiting else len(self.waiting)
+        component, self.waiting = self.takes(self.waiting, first, self.number[node])
+        return [set(component)]
 
 
 # ---- tarjan
@@ -79,6 +129,8 @@ def right_tarjan(successors: Successors) -> list[set[int]]:
 
 
 def same_tarjan(answer: Any, wanted: list[set[int]]) -> bool:  # noqa: ANN401
+    if wanted and not isinstance(wanted[0], set):  # what a mistake returns
+        return Counter(answer) == Counter(wanted)
     return Counter(map(frozenset, answer)) == Counter(map(frozenset, wanted))
 
 
@@ -91,7 +143,7 @@ def mistake_low_not_passed(successors: Successors) -> object:
 
 
 def mistake_single_node(successors: Successors) -> object:
-    return Search(successors, is_whole=False).components()
+    return Search(successors, takes=first_alone).components()
 
 
 def mistake_single_nodes(successors: Successors) -> object:
@@ -104,6 +156,42 @@ def mistake_undirected(successors: Successors) -> object:
 
 def mistake_no_component(successors: Successors) -> object:
     return []
+
+
+def mistake_removed_alone(successors: Successors) -> object:
+    return Search(successors, takes=itself).components()
+
+
+def mistake_whole_stack(successors: Successors) -> object:
+    return Search(successors, takes=whole).components()
+
+
+def mistake_not_popped(successors: Successors) -> object:
+    return Search(successors, takes=nothing).components()
+
+
+def mistake_first_node_missing(successors: Successors) -> object:
+    return Search(successors, takes=all_but_first).components()
+
+
+def mistake_last_node_alone(successors: Successors) -> object:
+    return Search(successors, takes=last).components()
+
+
+def mistake_stack_cut_by_number(successors: Successors) -> object:
+    return Search(successors, takes=by_number).components()
+
+
+def mistake_low_assigned(successors: Successors) -> object:
+    return Search(successors, lowered=lambda _, number: number).components()
+
+
+def mistake_nodes_not_in_sets(successors: Successors) -> object:
+    return [node for part in right_tarjan(successors) for node in part]
+
+
+def mistake_largest_alone(successors: Successors) -> object:
+    return [max(right_tarjan(successors), key=len)]
 
 
 # ---- component_to_keep
@@ -138,3 +226,29 @@ def mistake_entering_edges(components: list[set[int]], edges: list[tuple[int, in
 
 def mistake_edges_counted(components: list[set[int]], edges: list[tuple[int, int, int]]) -> object:
     return max(components, key=lambda part: sum(1 for a, b, f in edges if {a, b} <= part))
+
+
+def mistake_frames_themselves(components: list[set[int]], edges: list[tuple[int, int, int]]) -> object:
+    part = right_component_to_keep(components, edges)
+    return sum(f for a, b, f in edges if {a, b} <= part)
+
+
+def mistake_index_of_component(components: list[set[int]], edges: list[tuple[int, int, int]]) -> object:
+    return components.index(right_component_to_keep(components, edges))
+
+
+def mistake_either_end(components: list[set[int]], edges: list[tuple[int, int, int]]) -> object:
+    return max(components, key=lambda part: sum(f for a, b, f in edges if {a, b} & part))
+
+
+def mistake_longest_edge(components: list[set[int]], edges: list[tuple[int, int, int]]) -> object:
+    return max(components, key=lambda part: max((f for a, b, f in edges if {a, b} <= part), default=0))
+
+
+def mistake_fewest_frames(components: list[set[int]], edges: list[tuple[int, int, int]]) -> object:
+    return min(components, key=lambda part: sum(f for a, b, f in edges if {a, b} <= part))
+
+
+def mistake_all_but_the_best(components: list[set[int]], edges: list[tuple[int, int, int]]) -> object:
+    best = right_component_to_keep(components, edges)
+    return [part for part in components if part is not best]

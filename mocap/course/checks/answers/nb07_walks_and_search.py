@@ -1,5 +1,6 @@
 """Notebook 07: inputs, right answers and mistakes of `product_of` and `cheapest_walk`."""
 
+import operator
 from collections.abc import Callable
 from functools import partial
 from typing import Any
@@ -7,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap.course.check import close
 from mocap.course.checks.answers.common import Arguments, same_pose
-from mocap.course.checks.inputs import State, is_at, ways_from
+from mocap.course.checks.inputs import State, counted_ways_from, is_at
 
 StepsFrom = Callable[[State], list[tuple[float, State]]]
 """The edges that leave a state: the length of each, and the state at its end."""
@@ -62,6 +64,60 @@ def search(
         expanded += 1
         waiting += arranged(longer_walks(steps_from, cost, walk))
     return *best, expanded
+
+
+class Variant(NamedTuple):
+    """What students change in the search.
+
+    Attributes
+    ----------
+    arranged : puts the longer walks in the order in which they are pushed.
+    is_cut : whether a walk of some cost is cut, after one of another cost.
+    expands_complete : complete walks are expanded, too.
+    adds : from the cost of a walk and the length of an edge to the cost of the longer walk.
+    is_first : the search ends at the first complete walk.
+    """
+
+    arranged: Callable[[Waiting], Waiting] = cheapest_last
+    is_cut: Callable[[float, float], bool] = operator.ge
+    expands_complete: bool = False
+    adds: Callable[[float, float], float] = operator.add
+    is_first: bool = False
+
+
+def search_again(
+    steps_from: StepsFrom, start: State, is_done: Callable[[State], bool], variant: Variant
+) -> FoundWalk:
+    """Search with something changed."""
+    best: tuple[float, list[State]] = (np.inf, [])
+    waiting = [(0.0, [start])]
+    expanded = 0
+    while waiting:
+        cost, walk = waiting.pop()
+        if best[1] and variant.is_cut(cost, best[0]):
+            continue
+        if is_done(walk[-1]):
+            best = (cost, walk)
+            if variant.is_first:
+                break
+            if not variant.expands_complete:
+                continue
+        expanded += 1
+        longer = [(variant.adds(cost, length), [*walk, state]) for length, state in steps_from(walk[-1])]
+        waiting += variant.arranged(longer)
+    return *best, expanded
+
+
+def placed(transforms: Array, rotated_by: Callable[[float, float], float]) -> tuple[float, float, float]:
+    """Compose transforms, each step rotated by an angle made of the sum of those before it and the last."""
+    angle = 0.0
+    previous = 0.0
+    position = 0j
+    for rotation, x, z in transforms:
+        position += (z + 1j * x) * np.exp(1j * rotated_by(angle, previous))
+        angle += rotation
+        previous = rotation
+    return angle, position.imag, position.real
 
 
 # ---- product_of
@@ -120,17 +176,54 @@ def mistake_product_reversed(transforms: Array) -> object:
     return right_product_of(transforms[::-1])
 
 
+def mistake_angles_converted(transforms: Array) -> object:
+    return placed(transforms, lambda total, _: float(np.radians(total)))
+
+
+def mistake_angle_of_row_before(transforms: Array) -> object:
+    return placed(transforms, lambda _, previous: previous)
+
+
+def mistake_rotated_by_last_angle(transforms: Array) -> object:
+    total = float(transforms[:, 0].sum())
+    return placed(transforms, lambda *_: total)
+
+
+def mistake_last_angle_alone(transforms: Array) -> object:
+    return transforms[-1, 0], *right_product_of(transforms)[1:]
+
+
+def mistake_z_before_x(transforms: Array) -> object:
+    angle, x, z = right_product_of(transforms)
+    return angle, z, x
+
+
+def mistake_last_row_missing(transforms: Array) -> object:
+    return right_product_of(transforms[:-1])
+
+
+def mistake_first_row_missing(transforms: Array) -> object:
+    return right_product_of(transforms[1:])
+
+
 # ---- cheapest_walk
 
 
 def draw_cheapest_walk(rng: np.random.Generator) -> Arguments:
-    """Draw eight nodes with three edges each, some of them loops, a start, a goal, and a limit of edges."""
+    """Draw eight nodes with three edges each, some of them loops, a start, a goal, and a limit of edges.
+
+    In one graph of two, walks of the same cost occur. The edges of a node always differ.
+    """
     lengths = {}
+    has_ties = rng.uniform() < 0.5
     for node in range(1, 9):
         ends = rng.choice(8, size=3, replace=False) + 1
-        lengths[node] = {int(end): float(rng.uniform(0.1, 2)) for end in ends}
+        eighths = (rng.choice(8, size=3, replace=False) + 1) / 8  # their sums are exact
+        drawn = eighths if has_ties else rng.uniform(0.1, 2, size=3)
+        lengths[node] = {int(end): float(length) for end, length in zip(ends, drawn, strict=True)}
     start, goal = rng.choice(8, size=2, replace=False) + 1
-    steps_from = partial(ways_from, lengths, int(rng.integers(3, 7)))
+    requests: list[State] = []
+    steps_from = partial(counted_ways_from, requests, lengths, int(rng.integers(3, 7)))
     return steps_from, (int(start), 0), partial(is_at, int(goal))
 
 
@@ -139,7 +232,15 @@ def right_cheapest_walk(steps_from: StepsFrom, start: State, is_done: Callable[[
     return search(steps_from, start, is_done)
 
 
+def unseen_cheapest_walk(arguments: Arguments, answer: Any) -> str:  # noqa: ANN401
+    """Name the mistake of a search that asks for the edges of a walk twice."""
+    requests: list[State] = arguments[0].args[0]
+    return "asked_twice" if len(requests) > answer[2] + 1 else ""
+
+
 def same_cheapest_walk(answer: Any, wanted: FoundWalk) -> bool:  # noqa: ANN401
+    if len(wanted) < 3 or not isinstance(wanted[1], list):  # what a mistake returns
+        return close(answer, wanted)
     cost, walk, expanded = wanted
     return close(answer[0], cost) and list(answer[1]) == walk and bool(answer[2] == expanded)
 
@@ -228,3 +329,88 @@ def mistake_pops_counted(steps_from: StepsFrom, start: State, is_done: Callable[
 def mistake_start_missing(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
     cost, walk, expanded = right_cheapest_walk(steps_from, start, is_done)
     return cost, walk[1:], expanded
+
+
+def mistake_equal_walks_kept(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
+    return search_again(steps_from, start, is_done, Variant(is_cut=operator.gt))
+
+
+def mistake_asked_twice(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
+    cost, walk, expanded = right_cheapest_walk(steps_from, start, is_done)
+    for state in [start, *walk]:
+        steps_from(state)
+    return cost, walk, expanded
+
+
+def mistake_complete_walks_expanded(
+    steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
+) -> object:
+    return search_again(steps_from, start, is_done, Variant(expands_complete=True))
+
+
+def mistake_complete_walks_expanded_unsorted(
+    steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
+) -> object:
+    return search_again(steps_from, start, is_done, Variant(list, expands_complete=True))
+
+
+def mistake_last_edge_alone(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
+    return search_again(steps_from, start, is_done, Variant(adds=lambda _, length: length))
+
+
+def mistake_last_edge_alone_unsorted(
+    steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
+) -> object:
+    return search_again(steps_from, start, is_done, Variant(list, adds=lambda _, length: length))
+
+
+def mistake_first_complete_walk_unsorted(
+    steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
+) -> object:
+    return search_again(steps_from, start, is_done, Variant(list, is_first=True))
+
+
+def mistake_oldest_first_unsorted(
+    steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
+) -> object:
+    return search(steps_from, start, is_done, arranged=list, position=0)
+
+
+def mistake_oldest_first_reversed(
+    steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
+) -> object:
+    return search(steps_from, start, is_done, arranged=cheapest_first, position=0)
+
+
+def mistake_walk_first(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
+    cost, walk, expanded = right_cheapest_walk(steps_from, start, is_done)
+    return walk, cost, expanded
+
+
+def mistake_walk_first_unsorted(
+    steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
+) -> object:
+    cost, walk, expanded = search(steps_from, start, is_done, arranged=list)
+    return walk, cost, expanded
+
+
+def mistake_number_missing(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
+    return right_cheapest_walk(steps_from, start, is_done)[:2]
+
+
+def mistake_number_missing_unsorted(
+    steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
+) -> object:
+    return search(steps_from, start, is_done, arranged=list)[:2]
+
+
+def mistake_last_state_alone(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
+    cost, walk, expanded = right_cheapest_walk(steps_from, start, is_done)
+    return cost, (walk[-1] if walk else ()), expanded
+
+
+def mistake_start_not_counted(
+    steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
+) -> object:
+    cost, walk, expanded = right_cheapest_walk(steps_from, start, is_done)
+    return cost, walk, expanded - 1

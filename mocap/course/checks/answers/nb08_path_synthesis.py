@@ -56,6 +56,51 @@ def mistake_unsorted(stand: Indices, costs: Array, width: int) -> object:
     return np.sort(right_survivors(stand, costs, width))
 
 
+def mistake_places_in_sorted_list(stand: Indices, costs: Array, width: int) -> object:
+    order = np.argsort(costs)
+    _, first = np.unique(stand[order], axis=0, return_index=True)
+    return np.sort(first)[:width]
+
+
+def mistake_order_of_stands(stand: Indices, costs: Array, width: int) -> object:
+    order = np.argsort(costs)
+    _, first = np.unique(stand[order], axis=0, return_index=True)
+    return order[first][:width]
+
+
+def mistake_dearest_first(stand: Indices, costs: Array, width: int) -> object:
+    order = np.argsort(-costs)
+    _, first = np.unique(stand[order], axis=0, return_index=True)
+    return order[np.sort(first)[:width]]
+
+
+def mistake_dearest_of_equals(stand: Indices, costs: Array, width: int) -> object:
+    order = np.argsort(-costs)
+    _, first = np.unique(stand[order], axis=0, return_index=True)
+    chosen = order[first]
+    return chosen[np.argsort(costs[chosen])][:width]
+
+
+def mistake_fixed_width(stand: Indices, costs: Array, width: int) -> object:
+    return right_survivors(stand, costs, 3)
+
+
+def mistake_walk_too_few(stand: Indices, costs: Array, width: int) -> object:
+    return right_survivors(stand, costs, width - 1)
+
+
+def mistake_walk_too_many(stand: Indices, costs: Array, width: int) -> object:
+    return right_survivors(stand, costs, width + 1)
+
+
+def mistake_node_alone(stand: Indices, costs: Array, width: int) -> object:
+    return right_survivors(stand[:, :1], costs, width)
+
+
+def mistake_rows_of_stand(stand: Indices, costs: Array, width: int) -> object:
+    return stand[right_survivors(stand, costs, width)]
+
+
 # ---- look_ahead
 
 
@@ -123,3 +168,60 @@ def mistake_unlimited(walk: Walk, ahead: Points, line: Line, limit: float) -> ob
 
 def mistake_spared(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
     return limit - right_look_ahead(walk, ahead, line, limit)
+
+
+def mistake_cost_so_far_included(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    *_, cost = walk
+    return min(right_look_ahead(walk, ahead, line, np.inf) + cost, limit)
+
+
+def mistake_cost_so_far_added(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    *_, cost = walk
+    return right_look_ahead(walk, ahead, line, limit) + cost
+
+
+def mistake_first_point_included(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    rotation, translation, along, _ = walk
+    first = abs(rotation * ahead[0] + translation - line(np.array([along]))[0]) ** 2
+    return min(right_look_ahead(walk, ahead, line, np.inf) + float(first), limit)
+
+
+def mistake_steps_not_added_up(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    rotation, translation, along, _ = walk
+    s = np.asarray(along + abs(np.diff(ahead)))
+    return min(float((abs(rotation * ahead[1:] + translation - line(s)) ** 2).sum()), limit)
+
+
+def mistake_line_a_frame_behind(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    rotation, translation, along, _ = walk
+    steps = np.append(0, abs(np.diff(ahead))[:-1])
+    s = np.asarray(along + np.cumsum(steps))
+    return min(float((abs(rotation * ahead[1:] + translation - line(s)) ** 2).sum()), limit)
+
+
+def mistake_steps_without_abs(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    rotation, translation, along, _ = walk
+    s = np.asarray(along + np.cumsum(np.diff(ahead).real))
+    return min(float((abs(rotation * ahead[1:] + translation - line(s)) ** 2).sum()), limit)
+
+
+def mistake_limit_of_each_frame(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    return float(np.minimum(distances_of(walk, ahead, line) ** 2, limit).sum())
+
+
+def mistake_at_least(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    return max(right_look_ahead(walk, ahead, line, np.inf), limit)
+
+
+def mistake_last_frame_alone(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    return min(float(distances_of(walk, ahead, line)[-1] ** 2), limit)
+
+
+def mistake_rooted_sum(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    return min(float(np.sqrt((distances_of(walk, ahead, line) ** 2).sum())), limit)
+
+
+def mistake_rotated_last(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    rotation, translation, along, cost = walk
+    moved = ahead + translation
+    return right_look_ahead((rotation, 0, along, cost), moved, line, limit)

@@ -48,6 +48,34 @@ def mistake_step_too_many(odds: Array, steps: int) -> object:
     return np.linalg.matrix_power(odds, steps + 1).sum(axis=1).mean()
 
 
+def mistake_starts_that_survive(odds: Array, steps: int) -> object:
+    return float((np.linalg.matrix_power(odds, steps).sum(axis=1) > 0).mean())
+
+
+def mistake_places_that_survive(odds: Array, steps: int) -> object:
+    return float((np.linalg.matrix_power(odds, steps).sum(axis=0) > 0).mean())
+
+
+def mistake_first_start_alone(odds: Array, steps: int) -> object:
+    return np.linalg.matrix_power(odds, steps)[0].sum()
+
+
+def mistake_diagonal(odds: Array, steps: int) -> object:
+    return np.trace(np.linalg.matrix_power(odds, steps)) / len(odds)
+
+
+def mistake_share_of_each_start(odds: Array, steps: int) -> object:
+    return np.linalg.matrix_power(odds, steps).sum(axis=1)
+
+
+def mistake_whole_matrix(odds: Array, steps: int) -> object:
+    return np.linalg.matrix_power(odds, steps)
+
+
+def mistake_times_steps(odds: Array, steps: int) -> object:
+    return (odds * steps).sum(axis=1).mean()
+
+
 # ---- added_terms
 
 
@@ -117,3 +145,44 @@ def mistake_sum_of_terms(gap: Array, alpha: Array) -> object:
 def mistake_clips_jolt(gap: Array, alpha: Array) -> object:
     position_term, velocity_term = right_added_terms(gap, alpha)
     return position_term, velocity_term + alpha[1:-1, None] * np.diff(gap, 2, axis=0)
+
+
+def by_gradients(gap: Array, alpha: Array) -> tuple[Array, Array]:
+    """Return both terms by np.gradient, in all frames."""
+    slope = np.gradient(alpha)
+    position_term = np.gradient(slope)[:, None] * gap
+    return position_term, 2 * slope[:, None] * np.gradient(gap, axis=0)
+
+
+def mistake_np_gradients(gap: Array, alpha: Array) -> object:
+    return by_gradients(gap, alpha)
+
+
+def mistake_np_gradients_cut(gap: Array, alpha: Array) -> object:
+    position_term, velocity_term = by_gradients(gap, alpha)
+    return position_term[1:-1], velocity_term[1:-1]
+
+
+def mistake_gap_for_velocity(gap: Array, alpha: Array) -> object:
+    position_term, _ = right_added_terms(gap, alpha)
+    return position_term, ((alpha[2:] - alpha[:-2])[:, None] * gap[1:-1])
+
+
+def mistake_slope_for_curvature(gap: Array, alpha: Array) -> object:
+    _, velocity_term = right_added_terms(gap, alpha)
+    return (alpha[2:] - alpha[:-2])[:, None] / 2 * gap[1:-1], velocity_term
+
+
+def mistake_curvature_negated(gap: Array, alpha: Array) -> object:
+    position_term, velocity_term = right_added_terms(gap, alpha)
+    return -position_term, velocity_term
+
+
+def mistake_velocity_negated(gap: Array, alpha: Array) -> object:
+    position_term, velocity_term = right_added_terms(gap, alpha)
+    return position_term, -velocity_term
+
+
+def mistake_place_halved(gap: Array, alpha: Array) -> object:
+    position_term, velocity_term = right_added_terms(gap, alpha)
+    return position_term / 2, velocity_term

@@ -1,9 +1,23 @@
 """Notebook 10: inputs, right answers and mistakes of `standing` and `most_kept`."""
 
+from collections.abc import Callable
+from itertools import groupby
+from typing import Any
+
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap.course.checks.answers.common import Arguments, grown
+
+
+def runs_that(speeds: Array, enter: float, leave: float, test: Callable[[Mask], Any]) -> list[bool]:
+    """Mark the runs below `leave` that pass a test of which frames are below `enter`."""
+    marks: list[bool] = []
+    for is_low, run in groupby(speeds.tolist(), lambda speed: speed < leave):
+        frames = np.array(list(run))
+        marks += [is_low and bool(test(frames < enter))] * len(frames)
+    return marks
+
 
 # ---- standing
 
@@ -13,6 +27,7 @@ def draw_standing(rng: np.random.Generator) -> Arguments:
     levels = rng.permutation([4.0, 0.6, 4.0, 0.2, 4.0, 0.2, 4.0])
     speeds = np.concatenate([level * rng.uniform(0.6, 1.4, rng.integers(3, 8)) for level in levels])
     speeds[: len(speeds) - 2 : 9] = 0.7
+    speeds[rng.integers(1, len(speeds) - 1, 2)] = rng.permutation([0.2, 0.9])  # at the thresholds
     return speeds, 0.2, 0.9
 
 
@@ -34,6 +49,39 @@ def mistake_forwards_alone(speeds: Array, enter: float, leave: float) -> object:
 
 def mistake_swings(speeds: Array, enter: float, leave: float) -> object:
     return ~right_standing(speeds, enter, leave)
+
+
+def mistake_all_frames_strict(speeds: Array, enter: float, leave: float) -> object:
+    return np.array(runs_that(speeds, enter, leave, np.all))
+
+
+def mistake_runs_themselves(speeds: Array, enter: float, leave: float) -> object:
+    edges = np.diff(np.concatenate([[0], right_standing(speeds, enter, leave).astype(int), [0]]))
+    return np.argwhere(edges)[:, 0].reshape(-1, 2)
+
+
+def mistake_backwards_alone(speeds: Array, enter: float, leave: float) -> object:
+    return grown(speeds, enter, leave, (-1,))
+
+
+def mistake_at_thresholds(speeds: Array, enter: float, leave: float) -> object:
+    return grown(speeds, np.nextafter(enter, np.inf), np.nextafter(leave, np.inf))
+
+
+def mistake_at_leave(speeds: Array, enter: float, leave: float) -> object:
+    return grown(speeds, enter, np.nextafter(leave, np.inf))
+
+
+def mistake_at_enter(speeds: Array, enter: float, leave: float) -> object:
+    return grown(speeds, np.nextafter(enter, np.inf), leave)
+
+
+def mistake_between_thresholds(speeds: Array, enter: float, leave: float) -> object:
+    return (speeds >= enter) & (speeds < leave)
+
+
+def mistake_indices(speeds: Array, enter: float, leave: float) -> object:
+    return np.flatnonzero(right_standing(speeds, enter, leave))
 
 
 # ---- most_kept
@@ -65,3 +113,24 @@ def mistake_mean_of_fractions(lengths: Indices, window: int) -> object:
 
 def mistake_fraction_lost(lengths: Indices, window: int) -> object:
     return 1 - right_most_kept(lengths, window)
+
+
+def mistake_share_of_each_clip(lengths: Indices, window: int) -> object:
+    return np.maximum(0, lengths - 2 * window) / lengths
+
+
+def mistake_frames_of_each_clip(lengths: Indices, window: int) -> object:
+    return np.maximum(0, lengths - 2 * window)
+
+
+def mistake_short_clips_left_out(lengths: Indices, window: int) -> object:
+    kept = lengths[lengths > 2 * window]
+    return (kept - 2 * window).sum() / max(1, kept.sum())
+
+
+def mistake_two_windows_of_all(lengths: Indices, window: int) -> object:
+    return max(0, lengths.sum() - 2 * window) / lengths.sum()
+
+
+def mistake_largest_clip(lengths: Indices, window: int) -> object:
+    return (np.maximum(0, lengths - 2 * window) / lengths).max()
