@@ -6,6 +6,7 @@ poses. Motions at the same positions would hide each other, therefore each has a
 
 from __future__ import annotations
 
+from collections import Counter
 from itertools import combinations
 from pathlib import Path
 from typing import Any
@@ -51,6 +52,7 @@ FORESHORTENED = 0.45  # factor of distances in depth, at which bodies hide each 
 ROWS = 6  # largest number of rows
 TAGGED = 4  # largest number of characters with names above their heads
 HEADROOM = np.array([0, 0.16, 0])  # metres, from the highest joint to the name above a head
+SEAM_FRACTION = 0.008  # least radius of the mark of a seam, as a fraction of the path's extent
 NAME_SHAPE = 4.0  # width of a name, as a multiple of its height
 WIDE = 0.35  # metres, half the width of a body with its arms
 PAPER = "#FFFFFF"
@@ -73,13 +75,14 @@ class _Entry(NamedTuple):
     text: str
 
 
-def still_picture(scene: dict[str, Any], *, legend: bool = True) -> bytes:
+def still_picture(scene: dict[str, Any], *, legend: bool = True, letters: float = SMALLEST) -> bytes:
     """Draw the whole motion of a scene as a PNG.
 
     Parameters
     ----------
     scene : as `Player.scene`.
     legend : whether there is a legend above the picture.
+    letters : the least size of letters, pixels.
 
     Examples
     --------
@@ -95,7 +98,7 @@ def still_picture(scene: dict[str, Any], *, legend: bool = True) -> bytes:
     whole = _camera(film, [body for row in rows for body in row], yaw, len(rows))
     drawn = [_draw_row(film, row, whole) for row in rows]
     picture = Image.fromarray(np.concatenate(drawn))
-    size = max(LETTERS / min(SLIDE[0] / picture.width, SLIDE[1] / picture.height), SMALLEST)
+    size = max(LETTERS / min(SLIDE[0] / picture.width, SLIDE[1] / picture.height), letters)
     font = _font(size)
     _write_names(picture, film, rows, whole, font)
     if legend:
@@ -104,7 +107,7 @@ def still_picture(scene: dict[str, Any], *, legend: bool = True) -> bytes:
         paper.paste(entries, (0, 0))
         paper.paste(picture, (0, entries.height))
         picture = paper
-    return few_colours(picture, size)
+    return few_colours(picture, size, Image.Quantize.FASTOCTREE)
 
 
 def walks_on_ground(film: FilmedScene) -> bool:
@@ -190,7 +193,8 @@ def _far_enough(seen: Array, numbers: list[int], distance: float) -> list[tuple[
     """Choose pairs (character, index of its time) farther than `distance` apart, at most one too many."""
     chosen: list[tuple[int, int]] = []
     for index in range(seen.shape[1]):
-        for number in numbers:
+        counts = Counter(number for number, _ in chosen)
+        for number in sorted(numbers, key=counts.__getitem__):  # characters with few bodies first
             bodies = np.array([seen[pair] for pair in chosen] or [[np.inf, np.inf]])
             if np.linalg.norm(bodies - seen[number, index], axis=-1).min() > distance:
                 chosen.append((number, index))
@@ -291,7 +295,9 @@ def _draw_path(page: ShadedPicture, film: FilmedScene, number: int) -> None:
     for start, end in character["astray"]:
         inks[(middles >= start) & (middles < end)] = to_rgb(marks["astray"])
     page.line(film.paths[number] * FLAT, inks, PATH_WIDTH)
-    seams = [[*film.pose(number, seam)[0, XZ], SEAM_RADIUS] for seam in character["seams"]]
+    extent = float(np.ptp(film.paths[number], axis=0).max())
+    radius = max(SEAM_RADIUS, SEAM_FRACTION * extent)
+    seams = [[*film.pose(number, seam)[0, XZ], radius] for seam in character["seams"]]
     for rim in rims(seams):
         page.area(rim, to_rgb(marks["seam"]))
 
