@@ -35,7 +35,7 @@ LETTERS = 40  # pixels, because the pictures are shown small
 FPS = 30  # of all results
 KEY = 2.0  # seconds, the time of the pose in keys.txt
 AROUND = 0.5  # seconds before and after it
-BESIDE = -1.8  # metres between the two bodies of the picture of retargeting
+BESIDE = 2.5  # metres along x between the two bodies of the picture of retargeting
 ROUND = 90  # frames of a cycle
 
 
@@ -84,9 +84,9 @@ def show_warp(folder: Path) -> Player:
 
 def show_retarget(folder: Path) -> Player:
     """Show the clip and its copy for a small body, side by side."""
-    small = _clip(folder / "small" / "walk.bvh", 0, 1.5)
+    small = _clip(folder / "small" / "walk.bvh", 0, 2)
     roots = small.root_positions + np.array([BESIDE, 0, 0])
-    original = _clip(folder / "mocap-demo" / "walk.bvh", 0, 1.5)
+    original = _clip(folder / "mocap-demo" / "walk.bvh", 0, 2)
     return play(original, replace(small, root_positions=roots), names=["walk.bvh", "small/walk.bvh"])
 
 

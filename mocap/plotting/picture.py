@@ -127,7 +127,8 @@ def small_png(figure: Figure, **notes: str) -> bytes:
     """Encode a figure as a PNG of few colours, with notes in its metadata."""
     png = io.BytesIO()
     figure.savefig(png, format="png", dpi=DPI, pil_kwargs={"compress_level": 1})
-    return few_colours(Image.open(png), letters_of(figure) * DPI, **notes)
+    letters = letters_of(figure) * DPI
+    return few_colours(Image.open(png), letters, Image.Quantize.MAXCOVERAGE, **notes)
 
 
 def few_colours(

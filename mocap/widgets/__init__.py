@@ -16,7 +16,7 @@ Reading order (notebooks 00 to 19)
 9. `shaded_picture`: bodies and their shadows, drawn without a browser
 10. `filmed_scene`: the picture of a player at a given time
 11. `still_picture`: the picture of a player without scripts
-12. `film`: a motion as a film, a strip of poses or a page
+12. `film`: a motion as a film, a still picture or a page
 13. `company`: characters that are stepped together, and the delay of each response
 14. `steered_widget`: characters side by side that obey one command of the reader
 15. `walk_bending`: walks bent onto a line, with feet that stand still

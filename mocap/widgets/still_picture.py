@@ -177,7 +177,7 @@ def _spaced(film: FilmedScene, numbers: list[int]) -> list[Body]:
         moments = np.linspace(0, film.seconds, MOMENTS).tolist()
         return [Body(number, time, np.zeros(3)) for time in moments for number in numbers]
     seen = _seen(film)
-    distance = APART
+    distance = APART * (1 + len(numbers)) / 2  # leaves gaps for the others
     chosen = _far_enough(seen, numbers, distance)
     while len(chosen) > MOST:
         distance *= WIDENING
@@ -190,17 +190,29 @@ def _spaced(film: FilmedScene, numbers: list[int]) -> list[Body]:
 
 
 def _far_enough(seen: Array, numbers: list[int], distance: float) -> list[tuple[int, int]]:
-    """Choose pairs (character, index of its time) farther than `distance` apart, at most one too many."""
+    """Choose pairs (character, index of its time) that are `APART`, those of one character by `distance`.
+
+    The choice ends as soon as there are too many.
+    """
     chosen: list[tuple[int, int]] = []
     for index in range(seen.shape[1]):
         counts = Counter(number for number, _ in chosen)
         for number in sorted(numbers, key=counts.__getitem__):  # characters with few bodies first
-            bodies = np.array([seen[pair] for pair in chosen] or [[np.inf, np.inf]])
-            if np.linalg.norm(bodies - seen[number, index], axis=-1).min() > distance:
+            if _is_free(seen, chosen, (number, index), distance):
                 chosen.append((number, index))
         if len(chosen) > MOST:
             break
     return chosen
+
+
+def _is_free(seen: Array, chosen: list[tuple[int, int]], pair: tuple[int, int], distance: float) -> bool:
+    """Return whether a body is `APART` from those of other characters, and by `distance` from its own."""
+    number, _ = pair
+    for chosen_pair in chosen:
+        limit = distance if chosen_pair[0] == number else APART
+        if np.linalg.norm(seen[chosen_pair] - seen[pair]) <= limit:
+            return False
+    return True
 
 
 class _Camera(NamedTuple):
