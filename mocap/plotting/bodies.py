@@ -19,7 +19,17 @@ from mocap.body.body_sides import head_joints, sides
 from mocap.body.motion import require_motion
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import distinct_joints
-from mocap.plotting.style import ASKED, COLOURS, FLOOR, MARK, PATH, QUIET, own_colour, source_colours
+from mocap.plotting.style import (
+    ASKED,
+    COLOURS,
+    FLOOR,
+    MARK,
+    PATH,
+    QUIET,
+    distinct_names,
+    own_colour,
+    source_colours,
+)
 
 # The directions across and up of an oblique view from the right, front and above, as rows (x, y, z).
 ASLANT = np.array([[0.57, 0, 0.82], [-0.2, 0.97, 0.14]])
@@ -234,7 +244,8 @@ def bodies_along(
     view = _view(ground)
     _draw_floor(ax, view, ground)
     ax.add_collection(PolyCollection(list(rims(discs) @ view[FLAT].T), facecolors=QUIET, zorder=0.5))
-    spans = [[_whole(motions, number)] for number in range(len(motions))]
+    count = len({name for _, name in sources})
+    spans = [[_whole(motions, number, count)] for number in range(len(motions))]
     if sources:
         spans[0] = _spans_of_sources(sources, len(motions[0]))
     moments = np.linspace(0, min(map(len, motions)) - 1, 3).astype(int)
@@ -261,14 +272,12 @@ class _Span(NamedTuple):
     name: str  # entry in the legend, "" for none
 
 
-def _whole(motions: Sequence[Motion], number: int) -> _Span:
-    """Return a whole motion as one span, with a name for one of several motions with different names."""
-    motion = motions[number]
+def _whole(motions: Sequence[Motion], number: int, sources: int) -> _Span:
+    """Return a whole motion as one span, with a name of its own for one of several motions."""
     name = "walked path"
     if len(motions) > 1:
-        has_name = len({character.name for character in motions}) > 1
-        name = motion.name if has_name else ""
-    return _Span(0, len(motion), own_colour(number, len(motions)), name)
+        name = distinct_names([motion.name for motion in motions])[number]
+    return _Span(0, len(motions[number]), own_colour(number, len(motions), sources), name)
 
 
 def _spans_of_sources(sources: Sequence[tuple[int, str]], count: int) -> list[_Span]:
@@ -333,19 +342,25 @@ def _draw_floor(ax: Axes, view: Array, ground: Array) -> None:
 
 
 def _frame(ax: Axes, figure: Figure) -> Figure:
-    """Fit the height of the figure to its content, and add a legend above it, with each name once."""
+    """Fit the height of the figure to its content, and add a legend above it.
+
+    A name has an entry for each of its colours.
+    """
     ax.set_axis_off()
     ax.margins(0.02, 0.04)
     ax.autoscale_view()
     width = np.ptp(ax.get_xlim())
     height = np.ptp(ax.get_ylim())
     handles, names = ax.get_legend_handles_labels()
-    entries = dict(zip(names, handles, strict=True))
+    pairs = [(name, str(plt.getp(handle, "color"))) for name, handle in zip(names, handles, strict=True)]
+    entries = dict(zip(pairs, handles, strict=True))
     legend_height = 0.5 + 0.32 * -(-len(entries) // COLUMNS)  # inches
     figure.set_size_inches(WIDTH, float(np.clip(WIDTH * height / width + legend_height, LOW, HIGH)))
     if entries:
         look: dict[str, Any] = {"loc": "outside upper left", "fontsize": 9, "frameon": False}
-        figure.legend(list(entries.values()), list(entries), ncols=min(COLUMNS, len(entries)), **look)
+        figure.legend(
+            list(entries.values()), [name for name, _ in entries], ncols=min(COLUMNS, len(entries)), **look
+        )
     return figure
 
 

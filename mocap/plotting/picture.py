@@ -127,19 +127,26 @@ def small_png(figure: Figure, **notes: str) -> bytes:
     """Encode a figure as a PNG of few colours, with notes in its metadata."""
     png = io.BytesIO()
     figure.savefig(png, format="png", dpi=DPI, pil_kwargs={"compress_level": 1})
-    return few_colours(Image.open(png), letters_of(figure) * DPI, **notes)
+    letters = letters_of(figure) * DPI
+    return few_colours(Image.open(png), letters, Image.Quantize.MAXCOVERAGE, **notes)
 
 
-def few_colours(picture: Image.Image, letters: float = np.inf, **notes: str) -> bytes:
+def few_colours(
+    picture: Image.Image,
+    letters: float = np.inf,
+    method: Image.Quantize = Image.Quantize.MAXCOVERAGE,
+    **notes: str,
+) -> bytes:
     """Encode a picture as a PNG of few colours.
 
     Parameters
     ----------
     picture : the picture.
     letters : the size of its smallest letters, pixels, which is stored in the metadata.
+    method : how colours are chosen. An octree keeps shades and large backgrounds.
     notes : further metadata, by name.
     """
-    quantized = picture.convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE)
+    quantized = picture.convert("RGB").quantize(COLOURS, method)
     metadata = PngInfo()
     for name, note in {"letters": f"{letters:.1f}", **notes}.items():
         metadata.add_text(name, note)

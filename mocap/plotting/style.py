@@ -4,6 +4,9 @@ Each colour has one meaning in the whole course. Blue and vermilion are the left
 Purple is a seam or a transition, orange is the path that was walked, and black is the requested path.
 """
 
+from collections import Counter
+from collections.abc import Sequence
+
 COLOURS = {"left": "#0072B2", "right": "#D55E00", "middle": "#333333"}
 """The colour of each side of a body."""
 
@@ -43,12 +46,36 @@ def source_colours(names: list[str]) -> dict[str, str]:
     return {name: SOURCES[i % len(SOURCES)] for i, name in enumerate(dict.fromkeys(names))}
 
 
-def own_colour(number: int, count: int) -> str | None:
+def own_colour(number: int, count: int, sources: int = 0) -> str | None:
     """Return the colour of one of several characters, or None for a single one, whose sides are coloured.
+
+    Parameters
+    ----------
+    number : the number of the character.
+    count : the number of characters.
+    sources : the number of sources of the first character. Their colours are not used for the others.
 
     Examples
     --------
-    >>> own_colour(0, 1), own_colour(1, 2)
-    (None, '#56B4E9')
+    >>> own_colour(0, 1), own_colour(1, 2), own_colour(1, 2, sources=2)
+    (None, '#56B4E9', '#8A6D00')
     """
-    return SOURCES[number % len(SOURCES)] if count > 1 else None
+    place = number + max(0, sources - 1) if number else 0
+    return SOURCES[place % len(SOURCES)] if count > 1 else None
+
+
+def distinct_names(names: Sequence[str]) -> list[str]:
+    """Append numbers to equal names, so that a legend has an entry for each.
+
+    Examples
+    --------
+    >>> distinct_names(["walk", "jog", "walk"])
+    ['walk (1)', 'jog', 'walk (2)']
+    """
+    counts = Counter(names)
+    seen: Counter[str] = Counter()
+    distinct = []
+    for name in names:
+        seen[name] += 1
+        distinct.append(f"{name} ({seen[name]})" if counts[name] > 1 else name)
+    return distinct

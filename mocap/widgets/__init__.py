@@ -15,13 +15,14 @@ Reading order (notebooks 00 to 19)
 8. `walk_figure`: the capsules of a body
 9. `shaded_picture`: bodies and their shadows, drawn without a browser
 10. `filmed_scene`: the picture of a player at a given time
-11. `film`: a motion as a film, a strip of poses or a page
-12. `company`: characters that are stepped together, and the delay of each response
-13. `steered_widget`: characters side by side that obey one command of the reader
-14. `walk_bending`: walks bent onto a line, with feet that stand still
-15. `walk_kinds`: the kinds of motion that can follow lines
-16. `walking_page`: a page on which a figure walks along drawn lines
-17. `link_picture`: the picture that a link to this page shows
+11. `still_picture`: the picture of a player without scripts
+12. `film`: a motion as a film, a still picture or a page
+13. `company`: characters that are stepped together, and the delay of each response
+14. `steered_widget`: characters side by side that obey one command of the reader
+15. `walk_bending`: walks bent onto a line, with feet that stand still
+16. `walk_kinds`: the kinds of motion that can follow lines
+17. `walking_page`: a page on which a figure walks along drawn lines
+18. `link_picture`: the picture that a link to this page shows
 
 References
 ----------

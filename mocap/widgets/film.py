@@ -1,4 +1,4 @@
-"""Animations and pictures of motions as files: films, strips of poses, and pages with the player."""
+"""Animations and pictures of motions as files: films, still pictures, and pages with the player."""
 
 import re
 import subprocess
@@ -39,7 +39,7 @@ def save_animation(
     Parameters
     ----------
     motion : one or more motions. Each of several has its own colour, and the camera follows all of them.
-    path : the file. Its suffix selects the format: .gif or .mp4 for a film, .png for a strip of poses, .html
+    path : the file. Its suffix selects the format: .gif or .mp4 for a film, .png for a still picture, .html
         for a stand-alone page with the player. If writing fails, no file is left.
     discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
     fps : frames per second of a film. The frames of a GIF last whole hundredths of a second, so 20, 25 and 50

@@ -31,6 +31,7 @@ STEP = 0.1  # seconds between points of a path
 SMOOTHING = 0.4  # seconds, the standard deviation of the Gaussian that smooths the camera's path
 ROUNDING = 1e-6  # frames, tolerance of the time of a frame
 GRID_PIECES = 14  # pieces of a line of the grid on the ground, each of one colour
+CELLS = 30  # largest number of squares of the grid on each side of its centre
 PATH_WIDTH = 2.5  # pixels
 ASKED_WIDTH = 5  # pixels, width of the requested path
 SEAM_RADIUS = 0.07  # metres
@@ -100,7 +101,7 @@ class FilmedScene:
         time = time % self.seconds if time > self.seconds > 0 else time
         target = np.array([np.interp(time, self.times, coordinate) for coordinate in self.targets.T])
         page = ShadedPicture(size, target + EYE_LEVEL, NEAREST + ZOOM * self.spread)
-        self._draw_grid(page, np.round(target))
+        self.draw_grid(page, np.round(target), AROUND + round(self.spread))
         for rim in rims(self.scene["obstacles"]):
             page.area(rim, to_rgb(QUIET))
         asked_path = np.insert(np.reshape(self.scene["asked"], (-1, 2)), 1, 0.0, axis=1)
@@ -110,31 +111,34 @@ class FilmedScene:
         for number, character in enumerate(self.scene["characters"]):
             self._draw_path(page, number, time)
             pieces.append(capsules_at(character, self.pose(number, time)))
-            sides = self._body_colours(number, time)
+            sides = self.body_colours(number, time)
             colours += [sides[side] for *_, side in character["pieces"]]
         return page.finished(np.concatenate(pieces), np.array(colours))
 
-    def _draw_grid(self, page: ShadedPicture, centre: Array) -> None:
-        """Draw a grid on the ground that fades with the distance from the centre."""
-        reach = AROUND + round(self.spread)
+    def draw_grid(self, page: ShadedPicture, centre: Array, reach: int, colour: str = FLOOR) -> None:
+        """Draw a grid on the ground, `reach` metres to each side of a centre, where it fades out."""
         ends = np.linspace(-reach, reach, GRID_PIECES + 1)
         middles = ends[1:] - reach / GRID_PIECES
         zeros = np.zeros_like(ends)
-        floor = np.array(to_rgb(FLOOR))
+        floor = np.array(to_rgb(colour))
         ground = np.array(to_rgb(GROUND))
-        for offset in range(-reach, reach + 1, 1 + reach // 30):
+        for offset in range(-reach, reach + 1, self.cell(reach)):
             fading = np.hypot(offset, middles)[:, None] / (reach + 1)
             inks = floor + fading.clip(0, 1) * (ground - floor)
             offsets = zeros + offset
             page.line(centre + np.stack([ends, zeros, offsets], axis=-1), inks, 1)
             page.line(centre + np.stack([offsets, zeros, ends], axis=-1), inks, 1)
 
+    def cell(self, reach: int) -> int:
+        """Return the side of the squares of a grid, metres."""
+        return 1 + reach // CELLS
+
     def _draw_path(self, page: ShadedPicture, number: int, time: float) -> None:
         """Draw a character's path, seams and footprints, paler with their distance in time."""
         character = self.scene["characters"][number]
         middles = (self.times[1:] + self.times[:-1]) / 2
         paleness = PALE * np.minimum(np.abs(middles - time) / FADE, 1)[:, None]
-        inks = (1 - paleness) * self._path_colours(number, middles) + paleness * to_rgb(GROUND)
+        inks = (1 - paleness) * self.path_colours(number, middles) + paleness * to_rgb(GROUND)
         page.line(self.paths[number] * FLAT, inks, PATH_WIDTH)
         seams = [[*self.pose(number, seam)[0, XZ], SEAM_RADIUS] for seam in character["seams"]]
         for rim in rims(seams):
@@ -144,14 +148,14 @@ class FilmedScene:
                 colour = blend(self.scene["sides"][side], GROUND, PALE * max(0.0, (time - end) / FADE))
                 page.area(rims([[x, z, FOOTPRINT_RADIUS]])[0], colour)
 
-    def _path_colours(self, number: int, times: Array) -> Array:
+    def path_colours(self, number: int, times: Array) -> Array:
         """Return the colours of a path at some times, (T, 3), which are those of its sources."""
         character = self.scene["characters"][number]
         sources = character["sources"] or [{"start": 0.0, "colour": character["path_colour"]}]
         colours = np.array([to_rgb(source["colour"]) for source in sources])
         return np.asarray(colours[_sources_at(sources, times)])
 
-    def _body_colours(self, number: int, time: float) -> list[ArrayLike]:
+    def body_colours(self, number: int, time: float) -> list[ArrayLike]:
         """Return the colours of the middle, the left and the right of a body, at indices 0, 1 and -1."""
         character = self.scene["characters"][number]
         colour = character["colour"]

@@ -188,11 +188,11 @@ class Player {
       }),
     );
     const several = this.characters.length > 1 ? this.characters : [];
-    const named = sources.length ? sources : several;
-    const colours = new Map(named.map((s) => [s.name, s.colour]));
-    if (seams.length) colours.set("seam", marks.seam);
-    if (astray.length) colours.set("off the path", marks.astray);
-    this.legend.replaceChildren(...[...colours].flatMap(([name, colour]) => coloured(colour, name)));
+    const named = sources.length ? [...sources, ...several.slice(1)] : [...several];
+    const colours = new Map(named.map((s) => [`${s.colour} ${s.name}`, [s.colour, s.name]]));
+    if (seams.length) colours.set("seam", [marks.seam, "seam"]);
+    if (astray.length) colours.set("astray", [marks.astray, "off the path"]);
+    this.legend.replaceChildren(...[...colours.values()].flatMap(([colour, name]) => coloured(colour, name)));
   }
 
   // Look at all characters' paths and the path asked for, from so far away that figures and paths are in the picture.

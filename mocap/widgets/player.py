@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -25,11 +26,11 @@ from mocap.body.body_sides import head_joints
 from mocap.body.motion import require_motion
 from mocap.errors import MocapError
 from mocap.feet.footplants import find_footprints, mark_plants
-from mocap.plotting.bodies import bodies_along, bones, film_strip
-from mocap.plotting.picture import legible, small_png
-from mocap.plotting.style import ASTRAY, COLOURS, MARK, PATH, own_colour, source_colours
+from mocap.plotting.bodies import bones
+from mocap.plotting.style import ASTRAY, COLOURS, MARK, PATH, distinct_names, own_colour, source_colours
 from mocap.synthesis.walk_to_motion import Seam
 from mocap.widgets.embedding import SHADED, SHARED, Embedded
+from mocap.widgets.still_picture import still_picture
 from mocap.widgets.walk_figure import posed
 
 SIDES = ("middle", "left", "right")  # in scripts a side is its index here
@@ -145,7 +146,6 @@ def _packed_footprints(motion: Motion) -> list[list[float]]:
 
 Sources = Sequence[tuple[int, str]]
 FAR = 0.15  # metres, the distance from the requested path beyond which the path of a walk is red
-WALKS = 1.0  # metres, the smallest extent on the ground of a motion that is drawn along its path
 
 
 def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to look at it)
@@ -158,6 +158,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     positions: Sequence[Array] = (),
     follow: bool = True,
     alt: str = "",
+    names: Sequence[str] = (),
 ) -> Player:
     """Play motions in a notebook. The reader can rotate the view, step, and change the speed.
 
@@ -175,6 +176,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
         `body.joint_positions`.
     follow : whether the camera follows the first character.
     alt : a sentence for readers who do not see the player. By default it contains names and durations.
+    names : the name of each motion in the legend, by default that of its clip. Equal names are numbered.
 
     Returns
     -------
@@ -182,7 +184,8 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
 
     Raises
     ------
-    MocapError : without a motion, and for objects that are not motions, such as a list of motions.
+    MocapError : without a motion, and for objects that are not motions, such as a list of motions. Also if
+        there is not one name for each motion.
 
     Examples
     --------
@@ -198,6 +201,8 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
         if isinstance(motion, list | tuple):
             raise MocapError(f"Motions are played one by one, got {described(motion)}: write play(*clips).")
         require_motion(motion)
+    if names:
+        motions = _renamed(motions, names)
     seam_frames = tuple(seam if isinstance(seam, int) else seam.frame for seam in seams)
     points = np.reshape(np.asarray(path, float), (-1, 2))
     astray = runs(np.asarray(off, float) > FAR)
@@ -206,6 +211,15 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     return Player(
         motions, tuple(sources), seam_frames, points, astray, obstacles, shown, follow=follow, description=alt
     )
+
+
+def _renamed(motions: Sequence[Motion], names: Sequence[str]) -> tuple[Motion, ...]:
+    """Return the motions with other names."""
+    if isinstance(names, str) or len(names) != len(motions):
+        raise MocapError(
+            f"names= is a list of {len(motions)} names, one for each motion, got {described(names)}."
+        )
+    return tuple(replace(motion, name=name) for motion, name in zip(motions, names, strict=True))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -252,10 +266,13 @@ class Player(Embedded):
         """The scene that scripts draw, with the numbers of each character in `data`, at its `offset`."""
         characters: list[dict[str, Any]] = []
         data = b""
+        sources = len({name for _, name in self.sources})
+        names = distinct_names([motion.name for motion in self.motions])
         for number, (motion, positions) in enumerate(zip(self.motions, self.positions, strict=True)):
-            colour = own_colour(number, len(self.motions)) or COLOURS["middle"]
+            colour = own_colour(number, len(self.motions), sources) or COLOURS["middle"]
             character, block = packed_character(motion, colour, positions=positions)
-            characters.append(character | {"offset": len(data), "prints": _packed_footprints(motion)})
+            character |= {"name": names[number], "offset": len(data), "prints": _packed_footprints(motion)}
+            characters.append(character)
             data += block
         self._mark_first(characters[0])
         fps = self.motions[0].fps
@@ -276,10 +293,5 @@ class Player(Embedded):
 
     @cached_property
     def picture(self) -> bytes:
-        """The picture without scripts: a PNG of the whole motion, or a strip of poses without a path."""
-        ground = self.motions[0].root_positions[:, [0, 2]]
-        if max(np.ptp(ground, axis=0)) < WALKS and not len(self.path):
-            return small_png(film_strip(self.motions))
-        marks: dict[str, Any] = {"sources": self.sources, "seams": self.seams, "path": self.path}
-        marks |= {"discs": self.discs, "positions": self.positions}
-        return small_png(legible(bodies_along(*self.motions, **marks)))
+        """The picture without scripts, a PNG of shaded bodies that are apart from each other."""
+        return still_picture(self.scene)

@@ -75,19 +75,28 @@ class ShadedPicture:
     size : width and height, pixels.
     target : the position (x, y, z) at which the camera looks, metres.
     distance : the distance of the camera from the target, metres.
+    yaw, pitch : the rotation of the camera about the vertical axis, and downwards, radians.
     """
 
-    def __init__(self, size: tuple[int, int], target: Array, distance: float) -> None:
-        cos_yaw = np.cos(YAW)
-        sin_yaw = np.sin(YAW)
-        cos_pitch = np.cos(PITCH)
-        sin_pitch = np.sin(PITCH)
+    def __init__(
+        self,
+        size: tuple[int, int],
+        target: Array,
+        distance: float,
+        *,
+        yaw: float = YAW,
+        pitch: float = PITCH,
+    ) -> None:
+        cos_yaw = np.cos(yaw)
+        sin_yaw = np.sin(yaw)
+        cos_pitch = np.cos(pitch)
+        sin_pitch = np.sin(pitch)
         right = [cos_yaw, 0, -sin_yaw]
         up = [-sin_yaw * sin_pitch, cos_pitch, -cos_yaw * sin_pitch]
         ahead = [-sin_yaw * cos_pitch, -sin_pitch, -cos_yaw * cos_pitch]
         self.axes = np.array([right, up, ahead])
         self.eye = target - distance * self.axes[2]
-        self.focus = FOCUS * min(size)
+        self.focus: float = FOCUS * min(size)  # pixels
         self.size = np.array(size)
         sun_right, sun_up, sun_back = SUN
         sun_x = sun_right * cos_yaw + sun_back * sin_yaw

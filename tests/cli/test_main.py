@@ -1,4 +1,4 @@
-"""The command, `course run`, `lab` and every command of the README, as a person types them.
+"""The command, `course run`, `lab` and every command of the page of commands, as a person types them.
 
 More of `course` is in tests/course.
 """
@@ -159,15 +159,15 @@ def test_lab_opens_the_first_notebook_and_leaves_ctrl_c_to_jupyterlab(monkeypatc
     assert started[0].asked == 2
 
 
-README = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
+PAGE = (Path(__file__).parents[2] / "notebooks" / "COMMANDS.md").read_text("utf-8")
 SLOW = ("pytest", "pip", "demo", "lab", "data", "course")  # tested elsewhere, or not a command of ours
 
 
 def commands():
     """List the lines of shell blocks, and the commands in tables, that start with `mocap`."""
-    blocks = re.findall(r"```sh\n(.*?)```", README, re.DOTALL)
+    blocks = re.findall(r"```sh\n(.*?)```", PAGE, re.DOTALL)
     lines = [line for block in blocks for line in block.splitlines()]
-    lines += re.findall(r"^\| `(mocap [^`]*)`", README, re.MULTILINE)
+    lines += re.findall(r"^\| `(mocap [^`]*)`", PAGE, re.MULTILINE)
     return [line for line in lines if line.startswith("mocap ") and not re.search("|".join(SLOW), line)]
 
 

@@ -1,0 +1,414 @@
+"""The picture of a player where no script runs: shaded bodies that are apart from each other, with names.
+
+A motion on the ground is drawn as bodies along its path, and a motion that stays at its position as a row of
+poses. Motions at the same positions would hide each other, therefore each has a row of its own.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from itertools import combinations
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.colors import to_rgb
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
+from mocap.plotting.bodies import rims
+from mocap.plotting.picture import LETTERS, SLIDE, few_colours
+from mocap.plotting.style import ASKED, QUIET
+from mocap.widgets.filmed_scene import ASKED_WIDTH, FLAT, PATH_WIDTH, SEAM_RADIUS, XZ, FilmedScene
+from mocap.widgets.shaded_picture import FOCUS, GROUND, YAW, ShadedPicture
+from mocap.widgets.walk_figure import capsules_at
+
+WIDTH = 990  # pixels, the greatest width
+SLIM = 640  # pixels, the least width, which has room for a legend
+SMALLEST = 22  # pixels, the least size of letters
+LOWEST = 170  # pixels, the least height of a row
+HIGHEST = 640  # pixels, the greatest height of all rows
+MARGIN = 14  # pixels
+LINE = 1.5  # height of a line of the legend, as a multiple of its letters
+PITCH = np.radians(22)  # radians, downwards
+ROW_PITCH = np.radians(9)  # radians, for poses in a row
+FARNESS = 3.0  # distance of the camera, as a multiple of the extent of the scene
+SEEN = 1.4  # distance to which the grid is drawn, as a multiple of the extent of the scene
+EXTENT = 4.0  # metres, the least extent from which that distance is computed
+ROUNDS = 4  # of the fit of the camera
+WALKS = 1.0  # metres, the least extent on the ground of a motion that is drawn along its path
+POSES = 8  # poses of a motion that stays at its position
+BETWEEN = 1.05  # metres between those poses
+MOST = 12  # bodies in a row
+FEW = 3  # characters: more are drawn at the same moments
+MOMENTS = 3  # number of those moments
+APART = 0.85  # metres, the least distance between two bodies
+NARROWEST = 0.7  # metres: motions with a smaller median distance have a row each
+WIDENING = 1.15  # factor of the least distance while there are too many bodies
+FORESHORTENED = 0.45  # factor of distances in depth, at which bodies hide each other
+ROWS = 6  # largest number of rows
+TAGGED = 4  # largest number of characters with names above their heads
+HEADROOM = np.array([0, 0.16, 0])  # metres, from the highest joint to the name above a head
+SEAM_FRACTION = 0.008  # least radius of the mark of a seam, as a fraction of the path's extent
+NAME_SHAPE = 4.0  # width of a name, as a multiple of its height
+WIDE = 0.35  # metres, half the width of a body with its arms
+PAPER = "#FFFFFF"
+GRID = "#BDB6A8"
+INK = "#222222"
+
+
+class Body(NamedTuple):
+    """A pose in a picture: the character's number, the time in seconds, and the translation in metres."""
+
+    number: int
+    time: float
+    moved: Array
+
+
+class _Entry(NamedTuple):
+    """An entry of a legend: the colours of its swatch, none for a remark, and its text."""
+
+    colours: tuple[str, ...]
+    text: str
+
+
+def still_picture(scene: dict[str, Any], *, legend: bool = True, letters: float = SMALLEST) -> bytes:
+    """Draw the whole motion of a scene as a PNG.
+
+    Parameters
+    ----------
+    scene : as `Player.scene`.
+    legend : whether there is a legend above the picture.
+    letters : the least size of letters, pixels.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> from mocap.widgets import play
+    >>> still_picture(play(datasets.sample("walk_straight")).scene)[1:4]
+    b'PNG'
+    """
+    film = FilmedScene(scene)
+    walks = walks_on_ground(film)
+    yaw = _yaw(film) if walks else YAW
+    rows = bodies_in_rows(film)
+    whole = _camera(film, [body for row in rows for body in row], yaw, len(rows))
+    drawn = [_draw_row(film, row, whole) for row in rows]
+    picture = Image.fromarray(np.concatenate(drawn))
+    size = max(LETTERS / min(SLIDE[0] / picture.width, SLIDE[1] / picture.height), letters)
+    font = _font(size)
+    _write_names(picture, film, rows, whole, font)
+    if legend:
+        entries = _draw_legend(_entries(film, rows, whole), picture.width, font)
+        paper = Image.new("RGB", (picture.width, picture.height + entries.height), PAPER)
+        paper.paste(entries, (0, 0))
+        paper.paste(picture, (0, entries.height))
+        picture = paper
+    return few_colours(picture, size, Image.Quantize.FASTOCTREE)
+
+
+def walks_on_ground(film: FilmedScene) -> bool:
+    """Return whether a character of a scene moves over the ground, or a path is requested."""
+    extents = [np.ptp(path[:, XZ], axis=0).max() for path in film.paths]
+    return bool(max(extents) >= WALKS or len(film.scene["asked"]))
+
+
+def bodies_in_rows(film: FilmedScene) -> list[list[Body]]:
+    """Choose the bodies of a still picture, a list for each row of the picture.
+
+    Each character has a body. Those on the ground are apart from each other: either by their positions, or
+    because characters at the same positions have a row each.
+    """
+    numbers = range(len(film.clouds))
+    if not walks_on_ground(film):
+        return [_poses(film, number) for number in numbers]
+    if len(numbers) <= ROWS and _hide_each_other(film):
+        return [_spaced(film, [number]) for number in numbers]
+    return [_spaced(film, list(numbers))]
+
+
+def _yaw(film: FilmedScene) -> float:
+    """Return the rotation of the camera for which the longest extent of the paths is horizontal."""
+    ground = np.concatenate(film.paths) * FLAT
+    ground = np.concatenate([ground, _requested_path(film)])
+    across = np.linalg.svd(ground - ground.mean(axis=0), full_matrices=False)[2][0]
+    first = film.paths[0]
+    if (first[-1] - first[0]) @ across < 0:
+        across = -across
+    return float(np.arctan2(-across[2], across[0]))
+
+
+def _requested_path(film: FilmedScene) -> Array:
+    """Return the points of the requested path, (N, 3), metres."""
+    return np.insert(np.reshape(film.scene["asked"], (-1, 2)), 1, 0.0, axis=1)
+
+
+def _seen(film: FilmedScene) -> Array:
+    """Return the paths of all characters, (N, T, 2), metres across and, foreshortened, in depth."""
+    cos = np.cos(_yaw(film))
+    sin = np.sin(_yaw(film))
+    view = np.array([[cos, -sin], [FORESHORTENED * sin, FORESHORTENED * cos]])
+    return np.asarray(np.array(film.paths)[..., XZ] @ view.T)
+
+
+def _hide_each_other(film: FilmedScene) -> bool:
+    """Return whether two characters are mostly at the same positions."""
+    pairs = combinations(np.array(film.paths)[..., XZ], 2)
+    return any(np.median(np.linalg.norm(p - q, axis=-1)) < NARROWEST for p, q in pairs)
+
+
+def _poses(film: FilmedScene, number: int) -> list[Body]:
+    """Return poses of a character at evenly spread times, side by side."""
+    right = np.array([np.cos(YAW), 0, -np.sin(YAW)])
+    times = np.unique(np.linspace(0, film.seconds, POSES).round(3)).tolist()
+    bodies = []
+    for place, time in enumerate(times):
+        root = film.pose(number, time)[0] * FLAT
+        bodies.append(Body(number, time, place * BETWEEN * right - root))
+    return bodies
+
+
+def _spaced(film: FilmedScene, numbers: list[int]) -> list[Body]:
+    """Return bodies at a minimum distance from each other, or at the same moments for many characters."""
+    if len(numbers) > FEW:
+        moments = np.linspace(0, film.seconds, MOMENTS).tolist()
+        return [Body(number, time, np.zeros(3)) for time in moments for number in numbers]
+    seen = _seen(film)
+    distance = APART * (1 + len(numbers)) / 2  # leaves gaps for the others
+    chosen = _far_enough(seen, numbers, distance)
+    while len(chosen) > MOST:
+        distance *= WIDENING
+        chosen = _far_enough(seen, numbers, distance)
+    for number in set(numbers) - {number for number, _ in chosen}:
+        bodies = np.array([seen[pair] for pair in chosen])
+        nearest = np.linalg.norm(seen[number][:, None] - bodies, axis=-1).min(axis=1)
+        chosen.append((number, int(nearest.argmax())))
+    return [Body(number, float(film.times[index]), np.zeros(3)) for number, index in chosen]
+
+
+def _far_enough(seen: Array, numbers: list[int], distance: float) -> list[tuple[int, int]]:
+    """Choose pairs (character, index of its time) that are `APART`, those of one character by `distance`.
+
+    The choice ends as soon as there are too many.
+    """
+    chosen: list[tuple[int, int]] = []
+    for index in range(seen.shape[1]):
+        counts = Counter(number for number, _ in chosen)
+        for number in sorted(numbers, key=counts.__getitem__):  # characters with few bodies first
+            if _is_free(seen, chosen, (number, index), distance):
+                chosen.append((number, index))
+        if len(chosen) > MOST:
+            break
+    return chosen
+
+
+def _is_free(seen: Array, chosen: list[tuple[int, int]], pair: tuple[int, int], distance: float) -> bool:
+    """Return whether a body is `APART` from those of other characters, and by `distance` from its own."""
+    number, _ = pair
+    for chosen_pair in chosen:
+        limit = distance if chosen_pair[0] == number else APART
+        if np.linalg.norm(seen[chosen_pair] - seen[pair]) <= limit:
+            return False
+    return True
+
+
+class _Camera(NamedTuple):
+    """The size of a row, pixels, and its camera: position, directions, and focal length in pixels."""
+
+    size: tuple[int, int]
+    target: Array
+    distance: float
+    yaw: float
+    pitch: float
+    focus: float
+
+    def page(self) -> ShadedPicture:
+        """Return an empty picture."""
+        page = ShadedPicture(self.size, self.target, self.distance, yaw=self.yaw, pitch=self.pitch)
+        page.focus = self.focus
+        page.pen.rectangle(
+            (0, 0, *page.paper.size), fill=GROUND
+        )  # without a gradient, which needs many colours
+        return page
+
+    @property
+    def reach(self) -> int:
+        """The distance to which the grid on the ground is drawn, metres."""
+        return round(SEEN * self.distance / FARNESS)
+
+
+def _camera(film: FilmedScene, bodies: list[Body], yaw: float, rows: int) -> _Camera:
+    """Fit a camera to bodies and paths: its picture is as wide as possible, unless rows would be too high."""
+    points = _points_of(film, bodies)
+    pitch = PITCH if walks_on_ground(film) else ROW_PITCH
+    extent = max(float(np.ptp(points, axis=0).max()), EXTENT)
+    target = (points.min(axis=0) + points.max(axis=0)) / 2
+    unit = 1000
+    page = ShadedPicture((unit, unit), target, FARNESS * extent, yaw=yaw, pitch=pitch)
+    for _ in range(ROUNDS):
+        page = ShadedPicture((unit, unit), target, FARNESS * extent, yaw=yaw, pitch=pitch)
+        pixels, _ = page.pixels(points)
+        right, down = (pixels.min(axis=0) + pixels.max(axis=0)) / 2 - unit / 2
+        metres = FARNESS * extent / (FOCUS * unit)
+        target = target + metres * (right * page.axes[0] - down * page.axes[1])
+    wide, high = np.ptp(page.pixels(points)[0], axis=0)
+    highest = max(LOWEST, HIGHEST // rows)
+    zoom = min((WIDTH - 2 * MARGIN) / wide, (highest - 2 * MARGIN) / high)
+    height = max(LOWEST, round(zoom * high) + 2 * MARGIN)
+    width = int(np.clip(round(zoom * wide) + 2 * MARGIN, SLIM, WIDTH))
+    return _Camera((width, height), target, FARNESS * extent, yaw, pitch, zoom * FOCUS * unit)
+
+
+def _points_of(film: FilmedScene, bodies: list[Body]) -> Array:
+    """Return points that must be visible, (N, 3): the bodies with room around them, and the paths."""
+    points = []
+    for body in bodies:
+        pose = film.pose(body.number, body.time) + body.moved
+        sides = WIDE * np.array([[1, 0, 0], [-1, 0, 0], [0, 0, 1], [0, 0, -1]])
+        head = pose[pose[:, 1].argmax()]
+        points += [pose, pose[0] * FLAT + sides, head[None] + 2 * HEADROOM]
+    if walks_on_ground(film):
+        points += [path * FLAT for path in film.paths]
+        points.append(_requested_path(film))
+        points += list(rims(film.scene["obstacles"]))
+    return np.concatenate(points)
+
+
+def _draw_row(film: FilmedScene, row: list[Body], camera: _Camera) -> NDArray[np.uint8]:
+    """Draw the ground, paths and bodies of a row."""
+    page = camera.page()
+    numbers = sorted({body.number for body in row})
+    film.draw_grid(page, np.round(camera.target * FLAT), camera.reach, GRID)
+    for rim in rims(film.scene["obstacles"]):
+        page.area(rim, to_rgb(QUIET))
+    if walks_on_ground(film):
+        page.line(_requested_path(film), to_rgb(ASKED), ASKED_WIDTH)
+        for number in numbers:
+            _draw_path(page, film, number)
+    pieces = []
+    colours: list[Any] = []
+    for number, time, moved in row:
+        character = film.scene["characters"][number]
+        pieces.append(capsules_at(character, film.pose(number, time) + moved))
+        sides = film.body_colours(number, time)
+        colours += [sides[side] for *_, side in character["pieces"]]
+    return page.finished(np.concatenate(pieces), np.array(colours))
+
+
+def _draw_path(page: ShadedPicture, film: FilmedScene, number: int) -> None:
+    """Draw the path of a character, red where it leaves the requested path, and its seams."""
+    character = film.scene["characters"][number]
+    marks = film.scene["marks"]
+    middles = (film.times[1:] + film.times[:-1]) / 2
+    inks = film.path_colours(number, middles)
+    for start, end in character["astray"]:
+        inks[(middles >= start) & (middles < end)] = to_rgb(marks["astray"])
+    page.line(film.paths[number] * FLAT, inks, PATH_WIDTH)
+    extent = float(np.ptp(film.paths[number], axis=0).max())
+    radius = max(SEAM_RADIUS, SEAM_FRACTION * extent)
+    seams = [[*film.pose(number, seam)[0, XZ], radius] for seam in character["seams"]]
+    for rim in rims(seams):
+        page.area(rim, to_rgb(marks["seam"]))
+
+
+def _font(size: float) -> ImageFont.FreeTypeFont:
+    """Return the font of matplotlib's pictures."""
+    return ImageFont.truetype(Path(mpl.get_data_path(), "fonts/ttf/DejaVuSans.ttf"), size)
+
+
+def _write_names(
+    picture: Image.Image,
+    film: FilmedScene,
+    rows: list[list[Body]],
+    camera: _Camera,
+    font: ImageFont.FreeTypeFont,
+) -> None:
+    """Write the name of a row in its corner, or the names of characters above their heads."""
+    pen = ImageDraw.Draw(picture)
+    look: dict[str, Any] = {"fill": INK, "font": font, "stroke_width": 3, "stroke_fill": PAPER}
+    names = [character["name"] for character in film.scene["characters"]]
+    if len(rows) > 1:
+        for place, name in enumerate(names):
+            pen.text((MARGIN, place * camera.size[1] + MARGIN / 2), name, **look)
+        return
+    if not 1 < len(names) <= TAGGED:
+        return
+    page = camera.page()
+    heads = {number: _heads(film, page, rows[0], number) for number in range(len(names))}
+    labels: list[Array] = []  # positions of the names so far
+    for number, name in enumerate(names):
+        neighbours = [*labels]
+        for second in heads.keys() - {number}:
+            neighbours += [*heads[second]]
+        across, down = _farthest(heads[number], np.array(neighbours))
+        labels.append(np.array([across, down]))
+        room = font.getlength(name) / 2 + MARGIN / 2
+        across = np.clip(across, room, max(room, picture.width - room))
+        pen.text((across, max(down, font.size + 2)), name, anchor="ms", **look)
+
+
+def _heads(film: FilmedScene, page: ShadedPicture, row: list[Body], number: int) -> Array:
+    """Return the pixels above the heads of a character, (B, 2)."""
+    poses = [film.pose(number, body.time) + body.moved for body in row if body.number == number]
+    heads = np.array([pose[pose[:, 1].argmax()] for pose in poses])
+    return page.pixels(heads + HEADROOM)[0]
+
+
+def _farthest(places: Array, neighbours: Array) -> Array:
+    """Return the place for a name that is farthest from its neighbours, which are wider than high."""
+    distances = np.linalg.norm((places[:, None] - neighbours) / [NAME_SHAPE, 1], axis=-1)
+    return np.asarray(places[distances.min(axis=1).argmax()])
+
+
+def _entries(film: FilmedScene, rows: list[list[Body]], camera: _Camera) -> list[_Entry]:
+    """List the entries of the legend: characters, unless a row has their name, sources, marks and squares."""
+    characters = film.scene["characters"]
+    marks = film.scene["marks"]
+    first = characters[0]
+    sources = dict.fromkeys((source["colour"], source["name"]) for source in first["sources"])
+    walks = walks_on_ground(film)
+    entries = []
+    if len(characters) > 1 and len(rows) == 1:
+        swatch = tuple(dict.fromkeys(colour for colour, _ in sources)) or (first["colour"],)
+        entries += [_Entry(swatch, first["name"])]
+        entries += [_Entry((character["colour"],), character["name"]) for character in characters[1:]]
+    elif walks and len(characters) == 1 and not sources:
+        entries += [_Entry((first["path_colour"],), "path of the motion")]
+    entries += [_Entry((colour,), name) for colour, name in sources]
+    if len(film.scene["asked"]):
+        entries += [_Entry((ASKED,), "requested path")]
+    if first["seams"] and walks:
+        entries += [_Entry((marks["seam"],), "seam")]
+    if first["astray"] and walks:
+        entries += [_Entry((marks["astray"],), "off the path")]
+    if walks:
+        return [*entries, _Entry((), f"squares of {film.cell(camera.reach)} m")]
+    times = [body.time for body in rows[0]]
+    return [*entries, _Entry((), f"poses from {times[0]:.2f} s to {times[-1]:.2f} s, evenly spread")]
+
+
+def _draw_legend(entries: list[_Entry], width: int, font: ImageFont.FreeTypeFont) -> Image.Image:
+    """Draw the entries of a legend in as many lines as they need."""
+    size = font.size
+    places: list[tuple[float, float]] = []
+    across = float(MARGIN)
+    line = 0
+    for colours, text in entries:
+        room = font.getlength(text) + (1.5 * size if colours else 0)
+        if places and across + room > width - MARGIN:
+            across = float(MARGIN)
+            line += 1
+        places.append((across, (line + 0.5) * LINE * size + MARGIN / 2))
+        across += room + 1.2 * size
+    legend = Image.new("RGB", (width, round((line + 1) * LINE * size + MARGIN)), PAPER)
+    pen = ImageDraw.Draw(legend)
+    for (first_x, middle), (colours, text) in zip(places, entries, strict=True):
+        for place, colour in enumerate(colours):
+            start = first_x + size * place / len(colours)
+            end = first_x + size * (place + 1) / len(colours)
+            pen.rectangle([start, middle - size / 2, end, middle + size / 2], fill=colour)
+        pen.text((first_x + (1.5 * size if colours else 0), middle), text, fill=INK, font=font, anchor="lm")
+    return legend
