@@ -123,8 +123,6 @@ def name_mistake(attempts: list[Attempt], is_same: IsSame) -> str:
     'the right numbers, but nested: join them into one flat array, as np.append does.'
     >>> name_mistake([Attempt((), 3.0, 4.0), Attempt((), 5.0, 8.0)], close)
     ''
-
-    Notebook: 01-skeletons-and-clips
     """
     for sentence, fits in _kinds(is_same, attempts[0].wanted):
         if all(_holds(fits, attempt) for attempt in attempts):

@@ -15,7 +15,6 @@ In the Python of a browser there is neither a timer nor a limit of memory.
 
 from __future__ import annotations
 
-import atexit
 import builtins
 import faulthandler
 import os
@@ -114,7 +113,6 @@ class _Report:
 
 
 _report = _Report()
-atexit.register(_report.close)
 
 
 def write_report_to(path: Path | None, *, anew: bool = False) -> None:
@@ -172,6 +170,7 @@ def _timer(seconds: float) -> Iterator[None]:
         yield
     finally:
         faulthandler.cancel_dump_traceback_later()
+        _report.close()  # nothing is left beside the notebook
 
 
 @contextmanager

@@ -30,6 +30,7 @@ HERE = Path(__file__).parent
 MOVING = HERE / "moving.js"
 STILL = "mocap-still"  # the class of a picture that stands in for a widget
 PRIVATE = shutil.ignore_patterns("answers*", ".*")  # of the teachers' folder
+HIDDEN = re.compile(r"\._|\.answers$")  # rooms without a page: private ones, and the right answers
 NOTE = '<p class="note">{}</p>'
 STILL_NOTES = {
     False: "A still picture: its controls move where the notebook runs.",
@@ -215,7 +216,7 @@ def _write_reference(folder: Path) -> list[str]:
     """Write a page for the face of each room, and list them."""
     make_folder(folder / "reference")
     packages = pkgutil.walk_packages(mocap.__path__, "mocap.")
-    rooms = [package.name for package in packages if package.ispkg and "._" not in package.name]
+    rooms = [package.name for package in packages if package.ispkg and not HIDDEN.search(package.name)]
     for room in rooms:
         write_file(folder / "reference" / f"{room}.rst", REFERENCE.format(room, "=" * len(room)))
     return [f"reference/{room}" for room in rooms]

@@ -322,7 +322,7 @@ def test_what_ended_the_last_kernel_is_told_and_not_tried_again(capsys, fresh):
     assert lab.mine(written("hamilton")).yours  # handed in again
     os.utime(report, (0, 0))  # a report that is older than the file is about an earlier version
     new_kernel()
-    assert lab.mine("hamilton").yours and report.read_text() == ""
+    assert lab.mine("hamilton").yours and not report.exists()
 
 
 def test_a_function_runs_as_it_stands_though_it_does_not_pass(capsys, fresh):
