@@ -5,6 +5,8 @@ process, which imports them from here.
 """
 
 from collections.abc import Callable
+from functools import partial
+from typing import Any
 
 State = tuple[int, int]
 """A node, and the number of edges walked before it."""
@@ -46,6 +48,24 @@ def counted_ways_from(
     """
     requests.append(state)
     return ways_from(lengths, longest, state)
+
+
+def noted_requests(argument: Any) -> list[State] | None:  # noqa: ANN401
+    """Return the list in which an argument of `counted_ways_from` notes its requests; None if it notes none.
+
+    Parameters
+    ----------
+    argument : any argument of an exercise.
+
+    Examples
+    --------
+    >>> noted_requests(partial(counted_ways_from, [(1, 0)], {1: {}}, 3)), noted_requests(len)
+    ([(1, 0)], None)
+    """
+    if isinstance(argument, partial) and argument.func is counted_ways_from:
+        requests: list[State] = argument.args[0]
+        return requests
+    return None
 
 
 def is_at(goal: int, state: State) -> bool:

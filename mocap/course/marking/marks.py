@@ -23,6 +23,7 @@ from mocap._shared.progress import Progress
 from mocap._shared.tasks import serve
 from mocap.course.check import Verdict
 from mocap.course.checks import all_checks
+from mocap.course.checks.inputs import noted_requests
 from mocap.course.marking.cells import Cell, Sheet, code_cells, course_sheets, sheet_of, without_commands
 from mocap.course.marking.grades import NO_EXERCISE, NO_NOTEBOOK, NOTHING, UNKNOWN, Mark
 from mocap.course.marking.hand_ins import Collected, Sent, collect, sent_by
@@ -291,5 +292,9 @@ def call(student: Sealed, name: str, *arguments: Any) -> Any:  # noqa: ANN401
     if raised:
         raise NotImplementedError if raised == "NotImplementedError" else type(raised, (Exception,), {})(said)
     for number, changed in changes:
-        np.copyto(arguments[number], unpack(changed))
+        requests = noted_requests(arguments[number])
+        if requests is None:
+            np.copyto(arguments[number], unpack(changed))
+        else:
+            requests[:] = unpack(changed)
     return unpack(result)

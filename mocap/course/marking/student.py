@@ -16,6 +16,7 @@ from traitlets.config import Config
 
 from mocap.course.check import altered, place_of, written
 from mocap.course.checks import withhold
+from mocap.course.checks.inputs import noted_requests
 from mocap.course.marking.cells import Cell, needed
 from mocap.course.marking.plain_data import pack
 
@@ -64,7 +65,10 @@ class Student:
             self.failed[number] = f"{type(error).__name__}: {error}".removesuffix(": ")
 
     def call(self, name: str, arguments: tuple[Any, ...]) -> tuple[Any, list[Any], str, str]:
-        """Call a function; return its answer and the arrays that it changed, or what it raised and said."""
+        """Call a function; return its answer and what it changed, or what it raised and said.
+
+        A change is the number of an argument with the new array, or with the requests that it has noted.
+        """
         if name not in self.shell.user_ns:
             return None, [], "NameError", f"no cell defines `{name}`; write `def {name}`"
         function = written(self.shell.user_ns[name])
@@ -75,7 +79,10 @@ class Student:
             line = place_of(error, function)
             return None, [], type(error).__name__, f"{error} ({line})" if line else f"{error}"
         pairs = enumerate(zip(copies, arguments, strict=True))
-        return answer, [[number, pack(new)] for number, (old, new) in pairs if altered(old, new)], "", ""
+        changes = [[number, pack(new)] for number, (old, new) in pairs if altered(old, new)]
+        requests = enumerate(map(noted_requests, arguments))
+        changes += [[number, pack(noted)] for number, noted in requests if noted]
+        return answer, changes, "", ""
 
 
 def serve(requests: BinaryIO, replies: BinaryIO) -> None:

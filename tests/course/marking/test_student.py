@@ -72,6 +72,13 @@ def test_a_reply_that_is_none_is_no_answer():
         assert not DOUBLE.verdict(answer).right
 
 
+def test_a_search_that_asks_for_the_edges_of_a_walk_twice_is_seen():
+    check = copy(all_checks()["cheapest_walk"])
+    check.trials = 3
+    asks_twice = check.answers.mistakes["asked_twice"]
+    assert "call it once for each" in check.verdict(over_the_channel(asks_twice)).message
+
+
 def test_what_stands_in_for_a_wrong_function_gets_no_mark(tmp_path, monkeypatch):
     """The notebook goes on with the package's function; the marker judges what the student wrote."""
     monkeypatch.chdir(tmp_path)

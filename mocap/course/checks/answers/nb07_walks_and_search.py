@@ -11,7 +11,7 @@ from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
 from mocap.course.check import close
 from mocap.course.checks.answers.common import Arguments, same_pose
-from mocap.course.checks.inputs import State, counted_ways_from, is_at
+from mocap.course.checks.inputs import State, counted_ways_from, is_at, noted_requests
 
 StepsFrom = Callable[[State], list[tuple[float, State]]]
 """The edges that leave a state: the length of each, and the state at its end."""
@@ -234,8 +234,8 @@ def right_cheapest_walk(steps_from: StepsFrom, start: State, is_done: Callable[[
 
 def unseen_cheapest_walk(arguments: Arguments, answer: Any) -> str:  # noqa: ANN401
     """Name the mistake of a search that asks for the edges of a walk twice."""
-    requests: list[State] = arguments[0].args[0]
-    return "asked_twice" if len(requests) > answer[2] + 1 else ""
+    requests = noted_requests(arguments[0])
+    return "asked_twice" if requests and len(requests) > answer[2] + 1 else ""
 
 
 def same_cheapest_walk(answer: Any, wanted: FoundWalk) -> bool:  # noqa: ANN401
