@@ -8,24 +8,25 @@ and the typical mistakes with their hints.
 Reading order
 -------------
 1. `guarded_calls`: calls of a student's function that cannot stop or freeze the notebook
-2. `common_mistakes`: the right values in another form, order, unit or sign
-3. `failing_inputs`: the smallest input on which a function fails, in one sentence
-4. `check`: how an exercise is checked
-5. `checks`: the exercises: words and functions of each notebook
-6. `real_clips`: captured clips for notebooks that can do without, and the four collections of claims
-7. `seam_trials`: walks by a matrix, and blends of matches drawn at random, measured
-8. `marked_values`: numbers in prose, and the expressions that compute them
-9. `notebooks`: read a notebook, find its cells by their tags and the names that they use, run it
-10. `handout`: copies without solutions
-11. `formulas`: formulas as MathML
-12. `recording`: positions of an experiment, as pictures for pages without Python
-13. `site`: the course as HTML pages, beside the reference pages of the package
-14. `conf`: how Sphinx makes these pages
-15. `opening`: the course in JupyterLab, and in JupyterLite
-16. `diagrams`: ideas drawn step by step
-17. `lab`: what students wrote is used, and what they thought is kept
-18. `marking`: marks for notebooks handed in, whose code runs sealed
-19. `teaching`: slides and films that are made from the notebooks
+2. `comparisons`: whether two answers are the same, and whether an argument was changed
+3. `common_mistakes`: the right values in another form, order, unit or sign
+4. `failing_inputs`: the smallest input on which a function fails, in one sentence
+5. `check`: how an exercise is checked
+6. `checks`: the exercises: words and functions of each notebook
+7. `real_clips`: captured clips for notebooks that can do without, and the four collections of claims
+8. `seam_trials`: walks by a matrix, and blends of matches drawn at random, measured
+9. `marked_values`: numbers in prose, and the expressions that compute them
+10. `notebooks`: read a notebook, find its cells by their tags and the names that they use, run it
+11. `handout`: copies without solutions
+12. `formulas`: formulas as MathML
+13. `recording`: positions of an experiment, as pictures for pages without Python
+14. `site`: the course as HTML pages, beside the reference pages of the package
+15. `conf`: how Sphinx makes these pages
+16. `opening`: the course in JupyterLab, and in JupyterLite
+17. `diagrams`: ideas drawn step by step
+18. `lab`: what students wrote is used, and what they thought is kept
+19. `marking`: marks for notebooks handed in, whose code runs sealed
+20. `teaching`: slides and films that are made from the notebooks
 
 References
 ----------

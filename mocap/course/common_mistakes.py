@@ -118,7 +118,7 @@ def name_mistake(attempts: list[Attempt], is_same: IsSame) -> str:
 
     Examples
     --------
-    >>> from mocap.course.check import close
+    >>> from mocap.course.comparisons import close
     >>> name_mistake([Attempt((), np.array([1.0, 2.0]), (1.0, [2.0]))], close)
     'the right numbers, but nested: join them into one flat array, as np.append does.'
     >>> name_mistake([Attempt((), 3.0, 4.0), Attempt((), 5.0, 8.0)], close)

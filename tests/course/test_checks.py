@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 from mocap.course import checks
-from mocap.course.check import Answers, Check, Texts, altered, close, close_angles, close_rotations
+from mocap.course.check import Answers, Check, Texts
 from mocap.course.common_mistakes import Attempt, name_mistake
+from mocap.course.comparisons import altered, close, close_angles, close_rotations
 from mocap.course.failing_inputs import failing_input, smallest
 from tests.course.told import frozen, told
 

@@ -20,7 +20,8 @@ from functools import cache, partial
 from importlib import import_module
 from pathlib import Path
 
-from mocap.course.check import Answers, AnswersWithheld, Check, Function, Texts, close
+from mocap.course.check import Answers, AnswersWithheld, Check, Function, Texts
+from mocap.course.comparisons import close
 
 FOLDER = Path(__file__).parent
 ANSWERS = FOLDER / "answers"

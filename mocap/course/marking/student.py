@@ -14,9 +14,10 @@ from typing import Any, BinaryIO
 from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
-from mocap.course.check import altered, place_of, written
+from mocap.course.check import place_of, written
 from mocap.course.checks import withhold
 from mocap.course.checks.inputs import noted_requests
+from mocap.course.comparisons import altered
 from mocap.course.marking.cells import Cell, needed
 from mocap.course.marking.plain_data import pack
 

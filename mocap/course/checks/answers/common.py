@@ -7,7 +7,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Mask
 from mocap.body.planar import PlanarTransform
-from mocap.course.check import close, close_angles
+from mocap.course.comparisons import close, close_angles
 
 Arguments = tuple[Any, ...]
 """The arguments of one call of a student's function."""

@@ -4,8 +4,8 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap.body import euler, rotations
-from mocap.course.check import close_rotations
 from mocap.course.checks.answers.common import Arguments
+from mocap.course.comparisons import close_rotations
 
 # ---- own_axes
 

@@ -4,8 +4,8 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Points
 from mocap.body.planar import PlanarTransform
-from mocap.course.check import close_angles
 from mocap.course.checks.answers.common import Arguments, clouds, same_pose, turned
+from mocap.course.comparisons import close_angles
 from mocap.matching.point_clouds import align
 
 

@@ -7,8 +7,8 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.body import euler
-from mocap.course.check import close
 from mocap.course.checks.answers.common import Arguments
+from mocap.course.comparisons import close
 
 TURN = 2 * np.pi  # radians
 Slice = tuple[Array, int, int]

@@ -10,8 +10,8 @@ from mocap.blending.joining import blend
 from mocap.blending.weights import cubic_weights
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.course.check import close, close_rotations
 from mocap.course.checks.answers.common import Arguments, normalised
+from mocap.course.comparisons import close, close_rotations
 
 
 def mixed_on_lines(a: Motion, b: Motion, alpha: Array, *, is_shorter: bool = False) -> Array:

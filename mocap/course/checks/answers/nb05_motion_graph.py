@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from mocap.course.check import close
 from mocap.course.checks.answers.common import Arguments
+from mocap.course.comparisons import close
 
 Node = tuple[int, int]
 """A clip and a frame."""

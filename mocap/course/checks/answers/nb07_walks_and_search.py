@@ -9,9 +9,9 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
-from mocap.course.check import close
 from mocap.course.checks.answers.common import Arguments, same_pose
 from mocap.course.checks.inputs import State, counted_ways_from, is_at, noted_requests
+from mocap.course.comparisons import close
 
 StepsFrom = Callable[[State], list[tuple[float, State]]]
 """The edges that leave a state: the length of each, and the state at its end."""

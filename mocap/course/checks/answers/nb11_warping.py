@@ -4,8 +4,8 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.body.rotations import from_rotvec, inverse, multiply, to_rotvec
-from mocap.course.check import close_rotations
 from mocap.course.checks.answers.common import Arguments
+from mocap.course.comparisons import close_rotations
 
 
 def long_way(quaternion: Array) -> Array:

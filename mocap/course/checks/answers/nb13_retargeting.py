@@ -6,8 +6,8 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.body.rotations import from_rotvec, inverse, multiply
-from mocap.course.check import close_rotations
 from mocap.course.checks.answers.common import Arguments
+from mocap.course.comparisons import close_rotations
 
 # ---- scaled_root
 
