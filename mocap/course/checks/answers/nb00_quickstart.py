@@ -9,10 +9,12 @@ from mocap.course.checks.answers.common import Arguments
 
 
 def draw_speed(rng: np.random.Generator) -> Arguments:
+    """Draw a random walk of 2 to 29 points in space, and frames per second from 24 to 120."""
     return rng.normal(size=(rng.integers(2, 30), 3)).cumsum(axis=0), float(rng.integers(24, 121))
 
 
 def right_speed(positions: Array, fps: float) -> Array:
+    """Return the distances over the ground from frame to frame, times the frames per second."""
     return np.asarray(np.hypot(*np.diff(positions[:, [0, 2]], axis=0).T) * fps)
 
 
@@ -68,11 +70,13 @@ def mistake_distance_from_start(positions: Array, fps: float) -> object:
 
 
 def draw_cheapest(rng: np.random.Generator) -> Arguments:
+    """Draw a grid of distances, and the rows and columns of some of its entries above 0.3."""
     grid = rng.uniform(size=rng.integers(5, 20, 2))
     return grid, rng.permutation(np.argwhere(grid > 0.3))[: rng.integers(3, 12)]
 
 
 def right_cheapest(grid: Array, minima: Indices) -> Indices:
+    """Return the entry at which the grid is smallest."""
     return np.asarray(minima[np.argmin(grid[tuple(minima.T)])])
 
 

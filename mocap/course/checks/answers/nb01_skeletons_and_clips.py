@@ -19,6 +19,7 @@ def draw_hamilton(rng: np.random.Generator) -> Arguments:
 
 
 def right_hamilton(a: Array, b: Array) -> Array:
+    """Multiply two quaternions, or two arrays of them."""
     return rotations.multiply(a, b)
 
 

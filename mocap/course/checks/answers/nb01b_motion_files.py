@@ -11,11 +11,13 @@ from mocap.course.comparisons import close_rotations
 
 
 def draw_own_axes(rng: np.random.Generator) -> Arguments:
+    """Draw three angles in degrees, most of them oblique and some multiples of 90."""
     angles = [rng.choice([0, 90, -90, 180, *rng.uniform(-80, 80, 16)]) for _ in range(3)]
     return tuple(map(float, angles))
 
 
 def right_own_axes(z: float, x: float, y: float) -> Array:
+    """Return the quaternion of three rotations about the joint's own axes: first z, then x, then y."""
     return euler.from_euler("ZXY", np.radians([z, x, y]))
 
 
@@ -42,11 +44,13 @@ def mistake_single_rotation(z: float, x: float, y: float) -> object:
 
 
 def draw_strikes(rng: np.random.Generator) -> Arguments:
+    """Draw a mask of runs of 1 to 11 frames, which are on the ground and off it by turns."""
     runs = rng.integers(1, 12, rng.integers(3, 9))
     return (np.repeat((np.arange(len(runs)) + rng.integers(2)) % 2, runs).astype(bool),)
 
 
 def right_strikes(contact: Mask) -> Indices:
+    """Return the frames in contact whose previous frame is not."""
     return np.flatnonzero(contact[1:] & ~contact[:-1]) + 1
 
 

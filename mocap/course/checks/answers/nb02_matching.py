@@ -39,10 +39,12 @@ def equal_or_lower(grid: Array, below: float) -> Indices:
 
 
 def draw_best_shift(rng: np.random.Generator) -> Arguments:
+    """Draw two clouds of points and an angle."""
     return (*clouds(rng), rng.uniform(-np.pi, np.pi))
 
 
 def right_best_shift(points: Array, moved: Array, angle: float) -> Array:
+    """Return the difference of the centroids on the ground, after the second cloud is rotated."""
     return np.asarray((points.mean(0) - turned(moved, angle).mean(0))[[0, 2]])
 
 

@@ -9,6 +9,7 @@ from mocap.course.checks.answers.common import Arguments
 
 
 def draw_window_sums(rng: np.random.Generator) -> Arguments:
+    """Draw a matrix of products, and a window of 2 to 4 frames."""
     return rng.normal(size=rng.integers(7, 12, 2)), int(rng.integers(2, 5))
 
 
@@ -49,11 +50,13 @@ def mistake_mean_of_window(products: Array, window: int) -> object:
 
 
 def draw_later_by(rng: np.random.Generator) -> Arguments:
+    """Draw a few points, and return the grid of their squared distances."""
     places = rng.normal(size=(int(rng.integers(5, 10)), 3))
     return (((places[:, None] - places) ** 2).sum(-1),)
 
 
 def right_later_by(grid: Array) -> Array:
+    """Return the means of the main diagonal and of those above it."""
     return np.array([grid.diagonal(n).mean() for n in range(len(grid))])
 
 

@@ -11,6 +11,7 @@ from mocap.course.checks.answers.common import Arguments
 
 
 def draw_turn_free(rng: np.random.Generator) -> Arguments:
+    """Draw frames of points at a random place on the ground, facing in a random direction."""
     transform = PlanarTransform(*rng.uniform(-3, 3, 3))
     points = rng.normal(size=(*rng.integers(3, 7, 2), 3)) * [0.5, 0.5, 1.0] + [0, 1.5, 0]
     return (transform.apply_points(points),)
@@ -77,11 +78,13 @@ def mistake_radii_with_height(points: Array) -> object:
 
 
 def draw_worth_a_look(rng: np.random.Generator) -> Arguments:
+    """Draw rows of numbers, and a distance within which about half of their pairs lie."""
     rows = rng.normal(size=(int(rng.integers(7, 12)), 4))
     return rows, float(np.quantile(pdist(rows), rng.uniform(0.3, 0.6)))
 
 
 def right_worth_a_look(rows: Array, reach: float) -> set[tuple[int, ...]]:
+    """Return the pairs of rows that are within the distance of each other."""
     is_near = squareform(pdist(rows)) <= reach
     return {*map(tuple, np.argwhere(np.triu(is_near, 1)))}
 
@@ -115,6 +118,7 @@ def mistake_city_block(rows: Array, reach: float) -> object:
 
 
 def draw_bounds_by_direction(rng: np.random.Generator) -> Arguments:
+    """Draw a vector, and one orthonormal direction fewer than it has components."""
     size = int(rng.integers(5, 9))
     difference = rng.normal(size=size)
     axes, _ = np.linalg.qr(rng.normal(size=(size, size)))
@@ -122,6 +126,7 @@ def draw_bounds_by_direction(rng: np.random.Generator) -> Arguments:
 
 
 def right_bounds_by_direction(difference: Array, axes: Array) -> Array:
+    """Return the lengths of the projections on more and more of the directions."""
     return np.sqrt(np.cumsum((difference @ axes) ** 2))
 
 

@@ -39,10 +39,12 @@ def mirrored_sums(points: Array, moved: Array) -> tuple[float, float]:
 
 
 def draw_best_angle(rng: np.random.Generator) -> Arguments:
+    """Draw two clouds of points."""
     return clouds(rng)
 
 
 def right_best_angle(points: Array, moved: Array) -> float:
+    """Return the angle of the best alignment, by Eq. 2 of [KGP02]."""
     return float(align(points, moved).angle)
 
 
@@ -90,12 +92,14 @@ def mistake_in_degrees(points: Array, moved: Array) -> object:
 
 
 def draw_undo(rng: np.random.Generator) -> Arguments:
+    """Draw a planar transform; one in five does not rotate, or rotates by half a turn."""
     angle = float(rng.uniform(-3, 3))
     angles = (0.0, np.pi, *[angle] * 8)
     return angles[int(rng.integers(10))], *rng.uniform(-3, 3, 2).tolist()
 
 
 def right_undo(angle: float, x: float, z: float) -> tuple[float, ...]:
+    """Return the three numbers of the inverse transform."""
     inverse = PlanarTransform(angle, x, z).inverse()
     return float(inverse.angle), float(inverse.x), float(inverse.z)
 

@@ -43,10 +43,12 @@ def draw_turn_between(rng: np.random.Generator) -> Arguments:
 
 
 def right_turn_between(a: float, b: float) -> float:
+    """Return the difference of two headings, wrapped to half a turn."""
     return (b - a + np.pi) % TURN - np.pi
 
 
 def same_turn_between(answer: Any, wanted: float) -> bool:  # noqa: ANN401
+    """Check whether two turns are the same; half a turn to the left is half a turn to the right."""
     return close(answer, wanted) or (close(abs(wanted), np.pi) and close(abs(answer), np.pi))
 
 
@@ -88,6 +90,7 @@ def draw_nearest_twin(rng: np.random.Generator) -> Arguments:
 
 
 def right_nearest_twin(previous: Array, angles: Array) -> Array:
+    """Return the Euler angles of the second rotation that continue those of the first."""
     return np.asarray(euler.continuous("ZXY", np.stack([previous, angles]))[1])
 
 

@@ -25,10 +25,12 @@ def mixed_on_lines(a: Motion, b: Motion, alpha: Array, *, is_shorter: bool = Fal
 
 
 def draw_quintic(rng: np.random.Generator) -> Arguments:
+    """Draw the length of a window, from 2 to 59 frames."""
     return (int(rng.integers(2, 60)),)
 
 
 def right_quintic(window: int) -> Array:
+    """Return the weights of a window's frames, from nearly 1 down to 0."""
     return 1 - quintic_step(np.arange(1, window + 1) / window)
 
 
@@ -97,6 +99,7 @@ def right_mix(a: Motion, b: Motion, alpha: Array) -> tuple[Array, Array]:
 
 
 def same_mix(answer: Any, wanted: tuple[Array, Array]) -> bool:  # noqa: ANN401
+    """Check whether two blends have the same root positions and the same rotations."""
     return len(answer) == 2 and close(answer[0], wanted[0]) and close_rotations(answer[1], wanted[1])
 
 

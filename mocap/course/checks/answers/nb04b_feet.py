@@ -9,12 +9,14 @@ from mocap.course.checks.answers.common import Arguments, grown
 
 
 def draw_slide(rng: np.random.Generator) -> Arguments:
+    """Draw a joint that drifts by about a centimetre a frame, and the frames in which it is planted."""
     positions = rng.normal(size=(20, 3)).cumsum(axis=0) * 0.01
     planted = np.arange(20) - rng.integers(0, 10) < rng.integers(4, 10)
     return positions, planted
 
 
 def right_slide(positions: Array, planted: Mask) -> float:
+    """Return the largest distance of a planted frame from the mean place, in centimetres."""
     ground = positions[planted][:, [0, 2]]
     return float(100 * np.linalg.norm(ground - ground.mean(axis=0), axis=1).max())
 
@@ -56,11 +58,13 @@ def mistake_length_of_path(positions: Array, planted: Mask) -> object:
 
 
 def draw_plant_marks(rng: np.random.Generator) -> Arguments:
+    """Draw noisy speeds of several levels, and the two speeds between which a contact may go on."""
     level = np.repeat(rng.uniform(0.0, 1.0, 8), rng.integers(2, 6, 8))
     return np.abs(level + rng.normal(0, 0.08, len(level))), 0.25, 0.5
 
 
 def right_plant_marks(speed: Array, start: float, stay: float) -> Mask:
+    """Return the runs below the higher speed that fall below the lower one."""
     return grown(speed, start, stay)
 
 
@@ -88,11 +92,13 @@ def mistake_inverted(speed: Array, start: float, stay: float) -> object:
 
 
 def draw_knee_bend(rng: np.random.Generator) -> Arguments:
+    """Draw the lengths of a thigh and a shank, and a distance that the leg can reach."""
     bones = rng.uniform(0.3, 0.5, 2)
     return *bones, float(bones.sum() * rng.uniform(0.5, 0.99))
 
 
 def right_knee_bend(thigh: float, shank: float, distance: float) -> float:
+    """Return the angle of the knee by the law of cosines, 0 for a straight leg."""
     cosine = (thigh**2 + shank**2 - distance**2) / (2 * thigh * shank)
     return float(np.pi - np.arccos(cosine))
 

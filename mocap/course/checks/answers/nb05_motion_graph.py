@@ -26,10 +26,12 @@ def draw_choice_points(rng: np.random.Generator) -> Arguments:
 
 
 def right_choice_points(frames: int, leaves: list[int], enters: list[int], window: int) -> list[int]:
+    """Return the ends of the clip, and the frames at which edges leave it and enter it."""
     return sorted({0, frames, *leaves, *(e + window for e in enters)})
 
 
 def same_choice_points(answer: Any, wanted: list[int]) -> bool:  # noqa: ANN401
+    """Check whether two lists of frames are the same; a set has no order, so it must equal."""
     return answer == wanted if set in (type(answer), type(wanted)) else close(answer, wanted)
 
 
@@ -116,6 +118,7 @@ def right_successors_of(points: list[list[int]], links: list[Link], window: int)
 
 
 def same_successors_of(answer: Any, wanted: dict[Node, list[Node]]) -> bool:  # noqa: ANN401
+    """Check whether the same edges leave the same nodes, in any order."""
     is_same = [sorted(answer[node]) == sorted(ends) for node, ends in wanted.items()]
     return answer.keys() == wanted.keys() and all(is_same)
 

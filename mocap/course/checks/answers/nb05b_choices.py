@@ -11,10 +11,12 @@ from mocap.course.checks.answers.common import Arguments, draw_odds
 
 
 def draw_inverse_shares(rng: np.random.Generator) -> Arguments:
+    """Draw some costs, and the probability that their shares add up to."""
     return rng.uniform(100, 400, rng.integers(1, 9)), float(rng.choice([0.5, 1.0]))
 
 
 def right_inverse_shares(costs: Array, rest: float) -> Array:
+    """Return shares proportional to the inverse of each cost."""
     return rest / costs / np.sum(1 / costs)
 
 
@@ -42,10 +44,12 @@ def mistake_one_minus_share(costs: Array, rest: float) -> object:
 
 
 def draw_chance_to_last(rng: np.random.Generator) -> Arguments:
+    """Draw the probabilities of a Markov chain that can end, and a number of segments."""
     return draw_odds(rng)
 
 
 def right_chance_to_last(probabilities: Array, count: int) -> float:
+    """Return the probability that a walk from a random start has so many segments."""
     return float(np.linalg.matrix_power(probabilities, count - 1).sum(axis=1).mean())
 
 
@@ -73,6 +77,7 @@ def mistake_evenly_spread(probabilities: Array, count: int) -> object:
 
 
 def draw_turning_point(rng: np.random.Generator) -> Arguments:
+    """Draw a planar transform that rotates much, hardly, or not at all."""
     angles = [0.0, 1e-3, -1e-3, np.pi, *rng.uniform(-3, 3, 4)]
     return float(rng.choice(angles)), *rng.uniform(-2, 2, 2).tolist()
 

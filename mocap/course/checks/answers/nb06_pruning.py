@@ -121,14 +121,17 @@ class Search:
 
 
 def draw_tarjan(rng: np.random.Generator) -> Arguments:
+    """Draw a graph as the successors of each node."""
     return (draw_graph(rng),)
 
 
 def right_tarjan(successors: Successors) -> list[set[int]]:
+    """Return the strongly connected components."""
     return components(nx.DiGraph(successors))  # type: ignore[return-value]  # of any nodes
 
 
 def same_tarjan(answer: Any, wanted: list[set[int]]) -> bool:  # noqa: ANN401
+    """Check whether two lists contain the same components, in any order."""
     if wanted and not isinstance(wanted[0], set):  # what a mistake returns
         return Counter(answer) == Counter(wanted)
     return Counter(map(frozenset, answer)) == Counter(map(frozenset, wanted))
@@ -209,6 +212,7 @@ def draw_component_to_keep(rng: np.random.Generator) -> Arguments:
 
 
 def right_component_to_keep(components: list[set[int]], edges: list[tuple[int, int, int]]) -> set[int]:
+    """Return the component whose inner edges have the most frames."""
     return max(components, key=lambda part: sum(f for a, b, f in edges if {a, b} <= part))
 
 

@@ -32,6 +32,7 @@ def draw_why_removed(rng: np.random.Generator) -> Arguments:
 
 
 def right_why_removed(successors: dict[int, list[int]], kept: set[int]) -> dict[int, str]:
+    """Return why each node is removed: it is on no cycle, or one way to the kept ones is missing."""
     graph = nx.DiGraph(successors)
     reasons = {}
     for node in successors.keys() - kept:
@@ -88,6 +89,7 @@ def draw_missing_ways(rng: np.random.Generator) -> Arguments:
 
 
 def right_missing_ways(graph: nx.DiGraph, kinds: dict[str, set[int]]) -> set[tuple[str, str]]:
+    """Return the pairs of kinds of motion between which no walk leads."""
     return {(a, b) for a, b in permutations(kinds, 2) if not leads(graph, kinds[a], kinds[b])}
 
 

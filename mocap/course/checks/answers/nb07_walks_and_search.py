@@ -239,6 +239,7 @@ def unseen_cheapest_walk(arguments: Arguments, answer: Any) -> str:  # noqa: ANN
 
 
 def same_cheapest_walk(answer: Any, wanted: FoundWalk) -> bool:  # noqa: ANN401
+    """Check whether two searches found the same walk, at the same cost, with the same effort."""
     if len(wanted) < 3 or not isinstance(wanted[1], list):  # what a mistake returns
         return close(answer, wanted)
     cost, walk, expanded = wanted

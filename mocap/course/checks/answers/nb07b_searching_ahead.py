@@ -59,10 +59,12 @@ def mistake_power(graph: Graph, node: int, edges: int) -> object:
 
 
 def draw_least_cost(rng: np.random.Generator) -> Arguments:
+    """Draw a place, a goal, 0 to 7 steps, and the length of a stride, 0.7 m."""
     return rng.normal(size=2) * 3, rng.normal(size=2) * 3, int(rng.integers(0, 8)), 0.7
 
 
 def right_least_cost(place: Array, goal: Array, steps: int, stride: float) -> float:
+    """Return the square of the distance that remains if every step leads to the goal."""
     return float(max(0.0, np.hypot(*goal - place) - steps * stride) ** 2)
 
 
@@ -86,6 +88,7 @@ def mistake_difference_of_squares(place: Array, goal: Array, steps: int, stride:
 
 
 def draw_price_on_the_way(rng: np.random.Generator) -> Arguments:
+    """Draw the root's places on an edge, the frames before it, a goal, and the frames of the walk."""
     count = int(rng.integers(1, 12))
     points = rng.normal(size=count) + 1j * rng.normal(size=count)
     walked = int(rng.integers(0, 60))

@@ -18,6 +18,7 @@ Line = Callable[[Array], Points]
 
 
 def draw_survivors(rng: np.random.Generator) -> Arguments:
+    """Draw walks as rows of equal and different states, their costs, and how many may go on."""
     count = int(rng.integers(30, 60))
     return rng.integers(0, 2, size=(count, 4)), rng.permutation(count) / 100, int(rng.integers(3, 7))
 

@@ -24,6 +24,7 @@ LongerWalk = tuple[int, complex, complex, float, float]
 
 
 def draw_edge_cost(rng: np.random.Generator) -> Arguments:
+    """Draw the frames of an edge, a line, an arc length on the line, and the least step along it."""
     line = GroundPath(rng.normal(size=(rng.integers(4, 9), 2)).cumsum(axis=0))
     track = rng.normal(scale=0.05, size=(rng.integers(4, 12), 2)).cumsum(axis=0)
     return track, line.at, float(rng.uniform(0, line.length)), float(rng.uniform(0.02, 0.06))
@@ -92,6 +93,7 @@ def lengthened(walk: Walk, edge: Edge, path: PathAt, least_step: float) -> Longe
 
 
 def right_lengthen(walk: Walk, edges: list[Edge], path: PathAt, least_step: float) -> list[LongerWalk]:
+    """Return the walk longer by each of the edges."""
     return [lengthened(walk, edge, path, least_step) for edge in edges]
 
 

@@ -9,10 +9,12 @@ from mocap.course.checks.answers.common import Arguments, draw_odds
 
 
 def draw_alive(rng: np.random.Generator) -> Arguments:
+    """Draw the probabilities of a Markov chain that can end, and a number of steps."""
     return draw_odds(rng)
 
 
 def right_alive(odds: Array, steps: int) -> float:
+    """Return the mean probability of taking so many steps."""
     return float(np.linalg.matrix_power(odds, steps).sum(axis=1).mean())
 
 

@@ -32,6 +32,7 @@ def draw_standing(rng: np.random.Generator) -> Arguments:
 
 
 def right_standing(speeds: Array, enter: float, leave: float) -> Mask:
+    """Return the runs below the higher speed that fall below the lower one."""
     return grown(speeds, enter, leave)
 
 
@@ -88,10 +89,12 @@ def mistake_indices(speeds: Array, enter: float, leave: float) -> object:
 
 
 def draw_most_kept(rng: np.random.Generator) -> Arguments:
+    """Draw the lengths of some clips, and a window, in frames."""
     return rng.integers(5, 200, int(rng.integers(1, 12))), int(rng.integers(3, 20))
 
 
 def right_most_kept(lengths: Indices, window: int) -> float:
+    """Return the share of frames that are a window away from both ends of their clip."""
     return float(np.maximum(0, lengths - 2 * window).sum() / lengths.sum())
 
 

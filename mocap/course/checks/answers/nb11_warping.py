@@ -29,6 +29,7 @@ def draw_offset_curve(rng: np.random.Generator) -> Arguments:
 
 
 def right_offset_curve(q: Array, key: int, pose: Array, share: Array) -> Array:
+    """Return the rotations after their share of the offset at the key frame, in the joint's own frame."""
     return multiply(q, from_rotvec(share[:, None] * to_rotvec(multiply(inverse(q[key]), pose))))
 
 
@@ -71,6 +72,7 @@ def mistake_parents_frame(q: Array, key: int, pose: Array, share: Array) -> obje
 
 
 def draw_cardinal_slopes(rng: np.random.Generator) -> Arguments:
+    """Draw 3 to 6 keys at increasing frames, their values, and a tension."""
     count = int(rng.integers(3, 7))
     return rng.uniform(3, 30, count).cumsum(), rng.normal(size=count), float(rng.uniform(0.1, 0.9))
 
@@ -116,10 +118,12 @@ def mistake_next_key_alone(times: Array, values: Array, tension: float) -> objec
 
 
 def draw_flight_time(rng: np.random.Generator) -> Arguments:
+    """Draw the rise of a jump, and the height that is added to it, in metres."""
     return float(rng.uniform(0.1, 0.6)), float(rng.uniform(0.05, 0.5))
 
 
 def right_flight_time(rise: float, added: float) -> float:
+    """Return the ratio of two flight times: a rise takes the square root of twice the height over g."""
     return float(np.sqrt((rise + added) / rise))
 
 

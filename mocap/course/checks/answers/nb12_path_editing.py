@@ -9,10 +9,12 @@ from mocap.course.checks.answers.common import Arguments
 
 
 def draw_arc_length(rng: np.random.Generator) -> Arguments:
+    """Draw a line of 4 to 11 points on the ground."""
     return (rng.normal(size=(rng.integers(4, 12), 2)).cumsum(axis=0),)
 
 
 def right_arc_length(points: Array) -> Array:
+    """Return the length of the line up to each of its points."""
     return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
 
 
@@ -45,6 +47,7 @@ def mistake_fractions(points: Array) -> object:
 
 
 def draw_carry(rng: np.random.Generator) -> Arguments:
+    """Draw points on the ground, and for each a cart (angle, x, z) on the old and on the new path."""
     count = int(rng.integers(3, 9))
     return rng.normal(size=(count, 2)), *rng.normal(size=(2, count, 3)) * [1.0, 2.0, 2.0]
 
@@ -109,6 +112,7 @@ def draw_plant_place(rng: np.random.Generator) -> Arguments:
 
 
 def right_plant_place(positions: Array, planted: Mask) -> Array:
+    """Return the mean position of the planted frames."""
     return np.asarray(positions[planted].mean(axis=0))
 
 

@@ -13,6 +13,7 @@ from mocap.course.comparisons import close_rotations
 
 
 def draw_scaled_root(rng: np.random.Generator) -> Arguments:
+    """Draw places of the hips, a ratio of sizes, the heights of two ankles, and the centre."""
     hips = rng.normal([0.3, 0.9, 2.0], [0.4, 0.03, 1.0], (6, 3))
     ratio = rng.uniform(0.4, 0.8)
     return hips, ratio, *rng.uniform(0.04, 0.14, 2), rng.normal(size=2)
@@ -55,10 +56,12 @@ def mistake_inverse_ratio(hips: Array, ratio: float, low_s: float, low_t: float,
 
 
 def draw_bone_turn(rng: np.random.Generator) -> Arguments:
+    """Draw three rotations: the stance of the source, that of the target, and the turn between them."""
     return tuple(from_rotvec(rng.normal(size=3)) for _ in range(3))
 
 
 def right_bone_turn(source: Array, target: Array, turn: Array) -> Array:
+    """Return C = R_source⁻¹ A R_target."""
     return reduce(multiply, (inverse(source), turn, target))
 
 
@@ -97,10 +100,12 @@ def mistake_turn_inverted(source: Array, target: Array, turn: Array) -> object:
 
 
 def draw_design_row(rng: np.random.Generator) -> Arguments:
+    """Draw a parameter between 0 and 1."""
     return (float(rng.uniform(0, 1)),)
 
 
 def right_design_row(u: float) -> Array:
+    """Return the four basis functions of the uniform cubic B-spline."""
     second = 3 * u**3 - 6 * u**2 + 4
     third = -3 * u**3 + 3 * u**2 + 3 * u + 1
     return np.array([(1 - u) ** 3, second, third, u**3]) / 6

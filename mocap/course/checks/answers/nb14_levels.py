@@ -18,6 +18,7 @@ def draw_clip_gap(rng: np.random.Generator) -> Arguments:
 
 
 def right_clip_gap(p: Array, low: Array, high: Array) -> Array:
+    """Return the shortest vector from a point into the box."""
     return np.clip(p, low, high) - p
 
 
@@ -68,6 +69,7 @@ def draw_position_slope(rng: np.random.Generator) -> Arguments:
 
 
 def right_position_slope(joint: Array, end: Array, axis: Array, turn: Array) -> Array:
+    """Return the derivative of the end's position by the angle: axis × arm."""
     return np.cross(turn @ axis, end - joint)
 
 

@@ -44,6 +44,7 @@ def right_spread(query: int, matches_of: MatchesOf, is_same: Callable[[int, int]
 
 
 def same_spread(answer: Any, wanted: list[int]) -> bool:  # noqa: ANN401
+    """Check whether two lists of frames are equal."""
     return list(answer) == list(wanted)
 
 

@@ -27,6 +27,7 @@ def shrunk(good: Array, bad: Array, margin: Array, *, reach: Array, unit: Array)
 
 
 def draw_mixed_trajectory(rng: np.random.Generator) -> Arguments:
+    """Draw the speeds and the turning rates of three walks, their weights, and a time step."""
     speeds = rng.uniform(0.5, 1.5, (3, 12)) + 1j * rng.uniform(-0.2, 0.2, (3, 12))
     turnings = rng.uniform(0.5, 2, (3, 12)) * np.array([[-1.0], [1.0], [0.3]])
     return speeds, turnings, rng.dirichlet(np.ones(3)), 0.1
@@ -82,6 +83,7 @@ def draw_shrink_box(rng: np.random.Generator) -> Arguments:
 
 
 def right_shrink_box(good: Array, bad: Array, scale: Array, eps: float) -> tuple[Array, Array]:
+    """Return the box of the good targets, shrunk until no bad one is inside [HG07]."""
     return shrink_box(good, bad, scale, eps)
 
 
@@ -109,6 +111,7 @@ def mistake_worst_side(good: Array, bad: Array, scale: Array, eps: float) -> obj
 
 
 def draw_box_at(rng: np.random.Generator) -> Arguments:
+    """Draw a request, nine samples with the ends of their boxes, and how many neighbours count."""
     sources = rng.uniform(-75, 75, 9)
     request = float(rng.uniform(-60, 60))
     low = sources - rng.uniform(20, 60, 9)

@@ -91,12 +91,14 @@ def mistake_weights_unused(values: Array, groups: list[slice], weights: list[flo
 
 
 def draw_spring_after(rng: np.random.Generator) -> Arguments:
+    """Draw a position, a velocity, a goal, the half-life of a spring, and a time."""
     x, v, goal = (float(number) for number in rng.uniform(0.5, 3, 3) * rng.choice([-1, 1], 3))
     halflife = float(rng.uniform(0.1, 0.5))
     return x, v, goal, halflife, float(rng.uniform(0.05, 0.4))
 
 
 def right_spring_after(x: float, v: float, goal: float, halflife: float, t: float) -> float:
+    """Return where a critically damped spring is after this time."""
     return float(spring(x, v, goal, halflife, t))
 
 

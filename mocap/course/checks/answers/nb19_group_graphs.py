@@ -25,10 +25,12 @@ def greedy(a: Points, b: Points) -> Indices:
 
 
 def draw_assign(rng: np.random.Generator) -> Arguments:
+    """Draw two groups of 8 to 12 people on the ground, as complex numbers."""
     return tuple(rng.normal(0, 1.5, (2, int(rng.integers(8, 13)), 2)) @ [1, 1j])
 
 
 def right_assign(a: Points, b: Points) -> Indices:
+    """Return the assignment with the least sum of squared distances."""
     return np.asarray(linear_sum_assignment(abs(a[:, None] - b) ** 2)[1])
 
 
@@ -135,12 +137,14 @@ def mistake_not_unit_length(pa: Points, va: Points, pb: Points, vb: Points) -> o
 
 
 def draw_slots(rng: np.random.Generator) -> Arguments:
+    """Draw the order of the members at the end of each of 2 to 4 clips."""
     members = np.arange(int(rng.integers(5, 9)))
     orders = np.tile(members, (int(rng.integers(2, 5)), 1))
     return (rng.permuted(orders, axis=1),)
 
 
 def right_slots(orders: Indices) -> Indices:
+    """Return the orders applied one after the other."""
     return reduce(lambda slots, order: order[slots], orders)
 
 
