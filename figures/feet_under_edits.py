@@ -23,7 +23,7 @@ from mocap import blending, body, datasets, editing, feet, files, graphs
 from mocap._shared.arrays import Array
 from mocap.body import GroundPath, Motion
 from mocap.body.limbs import find_legs, roles, with_roles
-from mocap.editing.edits import clean_feet
+from mocap.editing.foot_cleaning import clean_feet
 from mocap.editing.mirroring import mirror_above_floor
 from mocap.editing.stances import Stance
 from mocap.editing.toes import lowest_heights

@@ -33,7 +33,7 @@ from mocap.editing import (
     posed,
     tuned,
 )
-from mocap.editing.edits import raised
+from mocap.editing.foot_cleaning import raised
 from mocap.editing.solver import Stage, solve
 from mocap.editing.toes import bend_toes, lowest_allowed, toe_tips
 from mocap.feet import clean_up, mark_plants

@@ -230,7 +230,7 @@ def blend(
     registration = blending.register(motions, slack=slack)
     first, last = registration.span
     worst = 100 * max(registration.costs)
-    from mocap.editing.edits import clean_feet  # the help needs no NumPy
+    from mocap.editing.foot_cleaning import clean_feet  # the help needs no NumPy
     from mocap.editing.toes import lowest_heights
 
     print_rows(registered=f"{len(motions)} clips, {last - first:.2f} s in common, {worst:.1f} cm")

@@ -13,24 +13,26 @@ Reading order (notebooks 10 to 14)
  5. `bodies`: which joints may rotate, about which axes, at what price
  6. `solver`: its stages; the smallest smooth change that meets constraints, for single frames or all together
  7. `toes`: toes that bend so that their tips stay above the floor
- 8. `edits`: a smooth change that meets constraints exactly, with feet that stand
- 9. `posing`: a single pose, made by dragging joints
-10. `levels`: constraints met level by level, from coarse to fine
-11. `path_editing`: the path of a motion, and the motion on another path
-12. `turning`: slower in bends, and leaning in, as people take them
-13. `line_rounding`: lines rounded where a walk would turn too fast
-14. `bending`: a walk bent to any line, with feet that stand
-15. `keys`: keys, the curve through them, and warps by offsets and by scale
-16. `retiming`: time keys, and motions at moments between their frames
-17. `warp_plans`: a whole warp from a small text file
-18. `foot_heights`: heights of ankles and balls that stand
-19. `stances`: the stance of a body, from its rest pose, a pose, or a walk
-20. `proportions`: bodies with longer or shorter limbs
-21. `retargeting`: global rotations copied to another body, and constraints for its feet
-22. `mirroring`: left and right exchanged, by names and geometry
-23. `cycles`: the best cycle of a clip, closed by a blend
-24. `travel`: the travel on the ground, removed
-25. `tuned`: the constants that trials chose
+ 8. `standing`: what keeps standing under an edit: plants, a floor, and marks that are true
+ 9. `edits`: a smooth change that meets constraints exactly
+10. `foot_cleaning`: feet that do not slide, and joints that are not under the floor
+11. `posing`: a single pose, made by dragging joints
+12. `levels`: constraints met level by level, from coarse to fine
+13. `path_editing`: the path of a motion, and the motion on another path
+14. `turning`: slower in bends, and leaning in, as people take them
+15. `line_rounding`: lines rounded where a walk would turn too fast
+16. `bending`: a walk bent to any line, with feet that stand
+17. `keys`: keys, the curve through them, and warps by offsets and by scale
+18. `retiming`: time keys, and motions at moments between their frames
+19. `warp_plans`: a whole warp from a small text file
+20. `foot_heights`: heights of ankles and balls that stand
+21. `stances`: the stance of a body, from its rest pose, a pose, or a walk
+22. `proportions`: bodies with longer or shorter limbs
+23. `retargeting`: global rotations copied to another body, and constraints for its feet
+24. `mirroring`: left and right exchanged, by names and geometry
+25. `cycles`: the best cycle of a clip, closed by a blend
+26. `travel`: the travel on the ground, removed
+27. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -11,7 +11,7 @@ from mocap._shared.quantities import check_radians
 from mocap._shared.records import dataclass
 from mocap.body.ground_path import GroundPath, as_path
 from mocap.body.motion import Motion
-from mocap.editing.edits import raised
+from mocap.editing.foot_cleaning import raised
 from mocap.editing.line_rounding import RoundedLine, round_line
 from mocap.editing.path_editing import Ride, moving_frames, plants_kept, ride_of
 from mocap.editing.pins import with_plants

@@ -22,7 +22,7 @@ from mocap.blending.joining import join
 from mocap.body import rotations
 from mocap.body.motion import Motion, concatenate, require_motion, resample
 from mocap.body.planar import PlanarTransform, align_frames, heading
-from mocap.editing.edits import raised
+from mocap.editing.foot_cleaning import raised
 from mocap.editing.path_editing import plants_kept
 from mocap.editing.toes import lowest_allowed, lowest_heights
 from mocap.editing.tuned import TUNED

@@ -23,11 +23,11 @@ from mocap.body.motion import Motion, require_motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.bodies import body_rotating
 from mocap.editing.boxes import Pins
-from mocap.editing.edits import floor_for, mark_met
 from mocap.editing.pins import join_pins, plant_pins, require_reachable, with_plants
 from mocap.editing.poses import MotionOrPoses, Poses, poses_of
 from mocap.editing.solver import Stage, closing_stages, solve_stages
 from mocap.editing.stances import Stance, stance_of, stance_of_zero
+from mocap.editing.standing import floor_for, mark_met
 from mocap.editing.toes import bend_toes
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError, shortened, warn
@@ -76,7 +76,8 @@ def copied(motion: MotionOrPoses, source: Stance, target: Stance, *, scale: floa
     Examples
     --------
     >>> from mocap.datasets import sample
-    >>> from mocap.editing.stances import stance_of
+    >>> from mocap.editing.standing import floor_for, mark_met
+    from mocap.editing.stances import stance_of
     >>> walk = sample("walk_straight")
     >>> stance = stance_of(walk)
     >>> same = copied(walk, stance, stance)

@@ -15,12 +15,14 @@ from mocap.body.motion import Motion
 from mocap.body.planar import heading
 from mocap.editing.boxes import Pins
 from mocap.editing.displacements import displaced
-from mocap.editing.edits import brought, clean_feet, plants_within
+from mocap.editing.edits import brought
+from mocap.editing.foot_cleaning import clean_feet
 from mocap.editing.keys import Key, keys_around, offsets
 from mocap.editing.pins import join_pins, pin, plant_pins
 from mocap.editing.poses import poses_of, with_frames_of
 from mocap.editing.posing import posed_with
 from mocap.editing.retiming import retime
+from mocap.editing.standing import plants_within
 from mocap.editing.tuned import TUNED
 from mocap.errors import FormatError, MocapError
 from mocap.files.text import lines, read_text, to_numbers

@@ -17,7 +17,7 @@ from mocap._shared.quantities import check_number
 from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion, concatenate, rotating_joints
 from mocap.body.planar import IDENTITY, PlanarTransform
-from mocap.editing.edits import clean_feet
+from mocap.editing.foot_cleaning import clean_feet
 from mocap.editing.toes import lowest_heights
 from mocap.errors import MocapError, NoWalk
 from mocap.files import bvh

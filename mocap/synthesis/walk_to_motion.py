@@ -16,7 +16,7 @@ from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.motion import Motion, gather_marks
 from mocap.body.planar import IDENTITY, PlanarTransform
-from mocap.editing.edits import clean_feet
+from mocap.editing.foot_cleaning import clean_feet
 from mocap.editing.toes import lowest_heights
 from mocap.errors import MocapError, NoWalk
 from mocap.feet.footplants import mark_plants

@@ -10,7 +10,7 @@ from mocap._shared.records import dataclass
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import from_ground, on_ground
-from mocap.editing.edits import clean_feet
+from mocap.editing.foot_cleaning import clean_feet
 from mocap.editing.path_editing import moving_frames, plants_kept, ride_of
 from mocap.editing.toes import lowest_heights
 from mocap.errors import MocapError, MocapWarning, warn

@@ -1,0 +1,82 @@
+"""Clean feet: they do not slide where they stand, and no joint is under the floor."""
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.body.limbs import find_legs
+from mocap.body.motion import Motion
+from mocap.editing.boxes import Pins
+from mocap.editing.edits import section_of, solved_section
+from mocap.editing.pins import join_pins, plant_pins
+from mocap.editing.poses import poses_of
+from mocap.editing.solver import EVERY_FRAME
+from mocap.editing.standing import floor_for
+from mocap.editing.toes import bend_toes, lowest_allowed
+from mocap.editing.tuned import TUNED
+from mocap.feet.footskate import clean_up
+
+UP = np.array([0.0, 1.0, 0.0])
+
+
+def clean_feet(motion: Motion, lowest: Array | None = None) -> Motion:
+    """Remove foot sliding by `feet.clean_up`, and keep all joints above the floor.
+
+    Parameters
+    ----------
+    motion : F frames of J joints; its `contacts` say when feet stand.
+    lowest : as for `lowest_allowed`.
+
+    Raises
+    ------
+    MocapError : as for `feet.clean_up`.
+
+    Warns
+    -----
+    MocapWarning : for plants that are released, as by `feet.clean_up`.
+
+    Examples
+    --------
+    >>> from mocap.body import joint_positions
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[:120]
+    >>> heights = joint_positions(clean_feet(walk))[walk.contacts["rtoes"], walk.skeleton.index("rtoes"), 1]
+    >>> bool(np.ptp(heights) < 1e-9)
+    True
+    """
+    poses = poses_of(motion)
+    return raised(clean_up(motion, poses=poses.world), lowest_allowed(poses, lowest))
+
+
+def raised(motion: Motion, allowed: Array) -> Motion:
+    """Raise the tips of toes that are lower than allowed, and other joints under the floor, y = 0.
+
+    Toes bend. If other joints are lower than allowed under the floor, by more than 3 mm, the smallest smooth
+    change raises them.
+
+    Parameters
+    ----------
+    motion : F frames of J joints, with clean feet. Plants stay where they are, or rise to the floor.
+    allowed : the lowest height of each joint, (F, J), metres.
+    """
+    poses = poses_of(motion)
+    bent = poses.updated(bend_toes(poses, allowed))
+    plants = plant_pins(poses)
+    under_floor = np.minimum(allowed, 0.0)
+    floor = floor_for(bent, plants.joints, under_floor)
+    if floor.errors(bent).max() <= TUNED.sunk:
+        return bent.motion
+    rise = _rise_of_plants(plants, motion, under_floor)
+    wanted = join_pins(floor, Pins(plants.joints, plants.low + rise, plants.high + rise))
+    every_frame = section_of(EVERY_FRAME, len(poses), motion.fps)
+    return bend_toes(solved_section(poses, wanted, None, every_frame), allowed)
+
+
+def _rise_of_plants(plants: Pins, motion: Motion, floor: Array) -> Array:
+    """Compute the translations (F, P, 3), metres, that raise plants to the floor (F, J) of their joints."""
+    is_planted = plants.held[..., 1]
+    depth = np.where(is_planted, floor[:, list(plants.joints)] - plants.low[..., 1], 0.0)
+    rise = np.zeros(depth.shape)
+    for leg in find_legs(motion.skeleton):  # a rigid foot: both of its joints rise by as much
+        foot = np.isin(plants.joints, leg)
+        rise[:, foot] = np.maximum(depth[:, foot].max(axis=1, keepdims=True), 0.0)
+    return np.asarray(rise[..., None] * UP)
