@@ -76,8 +76,7 @@ def copied(motion: MotionOrPoses, source: Stance, target: Stance, *, scale: floa
     Examples
     --------
     >>> from mocap.datasets import sample
-    >>> from mocap.editing.standing import floor_for, mark_met
-    from mocap.editing.stances import stance_of
+    >>> from mocap.editing.stances import stance_of
     >>> walk = sample("walk_straight")
     >>> stance = stance_of(walk)
     >>> same = copied(walk, stance, stance)

@@ -28,6 +28,7 @@ def plants_within(plants: Pins, poses: Poses, frames: slice) -> Pins:
     --------
     >>> from mocap.datasets import sample
     >>> from mocap.editing.pins import plant_pins
+    >>> from mocap.editing.poses import poses_of
     >>> walk = sample("walk_straight")[:240]
     >>> plants = plant_pins(walk)
     >>> plants_within(plants, poses_of(walk), slice(None)) is plants
@@ -91,6 +92,7 @@ def mark_met(poses: Poses, joints: Sequence[int], errors: Array, plants: Pins) -
     >>> import warnings
     >>> from mocap.datasets import sample
     >>> from mocap.editing.pins import plant_pins
+    >>> from mocap.editing.poses import poses_of
     >>> walk = sample("walk_straight")[:240]
     >>> plants = plant_pins(walk)
     >>> with warnings.catch_warnings(action="ignore"):
