@@ -15,14 +15,15 @@ import argparse
 import time
 import warnings
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 
 from mocap._shared.arrays import Array
-from mocap.body import limb_search, limb_tree
+from mocap.body import limb_pairs, limb_roles, limb_search, limb_tree
 from mocap.body.kinematics import forward_kinematics
 from mocap.body.limb_search import FoundLimbs, find_limbs
 from mocap.body.skeleton import Skeleton
@@ -808,17 +809,23 @@ def print_limits(clip: str) -> None:
     """Print how many rigs have a wrong role with each limit of the search halved and doubled."""
     bodies = [(rig, *rig.skeleton(names)) for rig, names in rigs(clip).values()]
     print(f"{'limit':<28} {'halved':>6} {'doubled':>7}  of {len(bodies)} rigs with a wrong role")
-    for module in (limb_search, limb_tree):
-        usual = module.LIMITS
+    for modules in ((limb_pairs, limb_roles, limb_search), (limb_tree,)):
+        usual = modules[0].LIMITS
         for limit in fields(usual):
             value = getattr(usual, limit.name)
             counts = []
             for factor in (0.5, 2.0):
                 changed = replace(usual, **{limit.name: type(value)(factor * value)})
-                module.LIMITS = changed
+                set_limits(modules, changed)
                 counts.append(sum(bool(wrong_roles(rig, find_limbs(*body))) for rig, *body in bodies))
-            module.LIMITS = usual
+            set_limits(modules, usual)
             print(f"{limit.name:<28} {counts[0]:>6} {counts[1]:>7}")
+
+
+def set_limits(modules: Iterable[ModuleType], limits: object) -> None:
+    """Set the limits of the search in each of its modules."""
+    for module in modules:
+        module.LIMITS = limits
 
 
 def mixed_kinds(seed: int, count: int = 3) -> list[str]:

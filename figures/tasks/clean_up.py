@@ -12,7 +12,7 @@ import numpy as np
 from mocap._shared.arrays import Array, runs
 from mocap.body import Motion, find_legs, joint_positions
 from mocap.editing import body_of, plant_pins, solve
-from mocap.editing.solver import REACH
+from mocap.editing.stages import REACH
 from mocap.errors import MocapError
 from mocap.feet import clean_up
 from mocap.synthesis import random_walk, to_motion

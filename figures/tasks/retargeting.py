@@ -14,7 +14,7 @@ import numpy as np
 from mocap._shared.arrays import runs
 from mocap.body import Motion, joint_positions, rotations
 from mocap.editing import body_of, copied, floor_pins, proportioned, retarget, solve, stance_of
-from mocap.editing.solver import REACH
+from mocap.editing.stages import REACH
 from mocap.editing.stances import Stance
 from mocap.errors import MocapError
 from tasks import BANDAI, HOMEWORK, Case

@@ -34,7 +34,8 @@ from mocap.editing import (
     tuned,
 )
 from mocap.editing.foot_cleaning import raised
-from mocap.editing.solver import Stage, solve
+from mocap.editing.solver import solve
+from mocap.editing.stages import Stage
 from mocap.editing.toes import bend_toes, lowest_allowed, toe_tips
 from mocap.feet import clean_up, mark_plants
 

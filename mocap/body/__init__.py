@@ -14,11 +14,14 @@ Reading order (notebooks 01, 03)
  7. `euler`: Euler angles, gimbal lock, and continuity over frames
  8. `ground_path`: paths on the ground, parametrised by arc length
  9. `limb_tree`: bones of constant length, and chains of them
-10. `limb_search`: legs and arms by bones and motion, whatever the names of joints
-11. `limbs`: legs and arms, the heading of the hips, and the role of each joint in a body
-12. `body_sides`: left, right and the head, by names or roles
-13. `fingerprints`: hashes that identify a clip under any name
-14. `tuned`: the constants that trials chose
+10. `limb_pairs`: pairs of limbs, mirror images by their lengths
+11. `limb_roles`: left and right, and the roles of the joints of a limb
+12. `limb_search`: legs and arms by bones and motion, whatever the names of joints
+13. `limbs`: legs and arms, the heading of the hips, and the role of each joint in a body
+14. `limb_partners`: joints of left and right limbs that are mirror images
+15. `body_sides`: left, right and the head, by names or roles
+16. `fingerprints`: hashes that identify a clip under any name
+17. `tuned`: the constants that trials chose
 
 References
 ----------

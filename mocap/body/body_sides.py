@@ -5,7 +5,8 @@ Measures, drawings and mirror images use these, so that they are the same under 
 
 from functools import lru_cache
 
-from mocap.body.limbs import has_leg_roles, limb_partners
+from mocap.body.limb_partners import limb_partners
+from mocap.body.limbs import has_leg_roles
 from mocap.body.skeleton import Skeleton
 
 

@@ -18,7 +18,8 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.body.joint_trees import place_joints
-from mocap.body.limb_search import LIMITS, find_limbs
+from mocap.body.limb_pairs import LIMITS
+from mocap.body.limb_search import find_limbs
 from mocap.body.motion import Motion, require_motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, Remedy, shortened, warn
@@ -27,7 +28,6 @@ from mocap.errors import MocapError, Remedy, shortened, warn
 ROLES_BY_HAND = Remedy("name them by {} when the clip is read", "roles")
 
 SHORT = 1e-6  # metres: a bone of this length or less has no direction
-SIMILAR = 0.1  # of the longer bone: the largest difference of the bones of fingers that are mirror images
 
 # Names of hip, knee, ankle and of shoulder, elbow, wrist on the left side, by source. Legs and arms are
 # looked up separately. A prefix up to a colon is ignored.
@@ -111,7 +111,7 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
 
     Notebook: 04b-feet
     """
-    joints = _limbs(skeleton)
+    joints = joints_of_limbs(skeleton)
     legs = []
     for side in SIDES:
         hip, knee, ankle = (joints[f"{side} {part}"] for part in LEG[:3])
@@ -120,7 +120,7 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
     return tuple(legs)
 
 
-def _limbs(skeleton: Skeleton) -> dict[str, int]:
+def joints_of_limbs(skeleton: Skeleton) -> dict[str, int]:
     """Find the joints of legs, arms and head by role; raise if there are no legs."""
     by_hand = {role: skeleton.index(name) for role, name in skeleton.roles.items()}
     if _has_legs(by_hand):
@@ -272,7 +272,7 @@ def _limbs_in_motion(motion: Motion, named: dict[str, int], by_hand: Mapping[str
     limbs = find_limbs(skeleton, positions)
     joints = _without_trunk(limbs.roles)
     if joints.get("left hip") == named.get("right hip", -1):  # names count more than the motion
-        joints = {_other_side(role): joint for role, joint in joints.items()}
+        joints = {other_side(role): joint for role, joint in joints.items()}
     if joints and limbs.doubts and not _has_legs(named) and not _has_legs(by_hand):
         correct = "`mocap info FILE --joints` prints the roles of the joints, to be corrected"
         warn(f"'{shortened(motion.name, 60)}': limbs are unsure: {'; '.join(limbs.doubts)}; {correct}.")
@@ -283,7 +283,8 @@ def _limbs_in_motion(motion: Motion, named: dict[str, int], by_hand: Mapping[str
     return named | joints | clear
 
 
-def _other_side(role: str) -> str:
+def other_side(role: str) -> str:
+    """Return the role of the mirror image, such as "right knee" for "left knee"."""
     side, _, part = role.partition(" ")
     return f"{SIDES[1 - SIDES.index(side)]} {part}" if side in SIDES else role
 
@@ -381,76 +382,11 @@ def roles(skeleton: Skeleton) -> dict[str, int]:
 
     Notebook: 13-retargeting
     """
-    joints = _limbs(skeleton)
+    joints = joints_of_limbs(skeleton)
     for side, leg in zip(SIDES, find_legs(skeleton), strict=True):
         joints |= {f"{side} {part}": joint for part, joint in zip(LEG, leg, strict=True)}
     joints = _trunk(skeleton, joints) | joints
     return {role: joints[role] for role in ROLES if role in joints}
-
-
-def limb_partners(skeleton: Skeleton) -> dict[int, int]:
-    """Pair the joints of left and right limbs by their roles, {left joint: right joint}.
-
-    Joints between those with roles, such as clavicles, are paired too, and the joints below, such as fingers,
-    in the order of the tree. Others, such as a sword, are not paired; without limbs there are no pairs.
-
-    Examples
-    --------
-    >>> from mocap.datasets.samples import SKELETON
-    >>> pairs = limb_partners(SKELETON)
-    >>> {SKELETON.names[left]: SKELETON.names[right] for left, right in [*pairs.items()][:3]}
-    {'lfemur': 'rfemur', 'lhipjoint': 'rhipjoint', 'ltibia': 'rtibia'}
-    """
-    try:
-        joints = _limbs(skeleton)
-    except MocapError:
-        return {}
-    pairs: dict[int, int] = {}
-    for role, joint in joints.items():
-        image = joints.get(_other_side(role), joint)
-        if role.startswith(SIDES[0]):
-            pairs |= _paired_paths(skeleton, joint, image)
-    open_pairs = [*pairs.items()]
-    for joint, image in open_pairs:
-        below = [child for child in skeleton.children(joint) if child not in pairs]
-        images = [child for child in skeleton.children(image) if child not in pairs.values()]
-        new_pairs = _paired_children(skeleton, below, images)
-        pairs |= new_pairs
-        open_pairs += new_pairs.items()
-    return pairs
-
-
-def _paired_children(skeleton: Skeleton, below: Sequence[int], images: Sequence[int]) -> dict[int, int]:
-    """Pair the joints below two partners, in the order of the tree.
-
-    If one side has further joints, such as a sword, only joints with similar bones are paired.
-    """
-    if len(below) == len(images):
-        return dict(zip(below, images, strict=True))
-    pairs: dict[int, int] = {}
-    for joint in below:
-        free = [image for image in images if image not in pairs.values()]
-        image = next((image for image in free if _are_similar(skeleton, joint, image)), None)
-        if image is not None:
-            pairs[joint] = image
-    return pairs
-
-
-def _are_similar(skeleton: Skeleton, joint: int, image: int) -> bool:
-    """Check whether two joints have bones of nearly the same length and as many joints below them."""
-    lengths = np.linalg.norm(skeleton.offsets[[joint, image]], axis=1)
-    paths = [skeleton.path_to_root(end) for end in range(len(skeleton))]
-    counts = [sum(top in path for path in paths) for top in (joint, image)]
-    return bool(np.ptp(lengths) <= SIMILAR * lengths.max()) and counts[0] == counts[1]
-
-
-def _paired_paths(skeleton: Skeleton, joint: int, image: int) -> dict[int, int]:
-    """Pair two joints, and those above them up to the last joint that both hang on."""
-    path = skeleton.path_to_root(joint)
-    path_of_image = skeleton.path_to_root(image)
-    above = [ancestor for ancestor in path if ancestor not in path_of_image]
-    above_image = [ancestor for ancestor in path_of_image if ancestor not in path]
-    return dict(zip(above, above_image, strict=True)) if len(above) == len(above_image) else {}
 
 
 def _trunk(skeleton: Skeleton, limbs: Mapping[str, int]) -> dict[str, int]:

@@ -40,8 +40,8 @@ from .retargeting import floor_pins as floor_pins
 from .retargeting import retarget as retarget
 from .retargeting import wear as wear
 from .retiming import retime as retime
-from .solver import REACH as REACH
-from .solver import Stage as Stage
 from .solver import solve as solve
+from .stages import REACH as REACH
+from .stages import Stage as Stage
 from .stances import stance_of as stance_of
 from .travel import in_place as in_place

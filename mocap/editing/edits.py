@@ -9,7 +9,8 @@ from mocap.editing.bodies import Body, priced
 from mocap.editing.boxes import Pins
 from mocap.editing.pins import join_pins, plant_pins, require_pins_of, require_reachable, warn_of_errors
 from mocap.editing.poses import Poses, poses_of, with_part
-from mocap.editing.solver import EVERY_FRAME, Stage, closing_stages, solve_stages
+from mocap.editing.solver import EVERY_FRAME, solve_stages
+from mocap.editing.stages import Stage, closing_stages
 from mocap.editing.standing import CLOSED, allowed_by, floor_for, mark_met, plants_within
 from mocap.editing.toes import SLACK, bend_toes
 from mocap.editing.tuned import TUNED

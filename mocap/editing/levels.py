@@ -15,7 +15,8 @@ from mocap.editing.boxes import Pins
 from mocap.editing.displacements import displaced, spline_basis
 from mocap.editing.pins import require_pins_of, require_reachable
 from mocap.editing.poses import ROOT, ROTATIONS, poses_of
-from mocap.editing.solver import REACH, solve_stages
+from mocap.editing.solver import solve_stages
+from mocap.editing.stages import REACH
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
 

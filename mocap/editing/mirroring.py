@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
 from mocap.body import body_sides, rotations
-from mocap.body.limbs import limb_partners, roles, with_roles
+from mocap.body.limb_partners import limb_partners
+from mocap.body.limbs import roles, with_roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.poses import poses_of

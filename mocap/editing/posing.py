@@ -11,7 +11,8 @@ from mocap.editing.bodies import priced
 from mocap.editing.boxes import Pins
 from mocap.editing.pins import join_pins, pin, plant_pins, require_reachable, warn_of_errors
 from mocap.editing.poses import MotionOrPoses, Poses, poses_of
-from mocap.editing.solver import Stage, solve_stages
+from mocap.editing.solver import solve_stages
+from mocap.editing.stages import Stage
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
 

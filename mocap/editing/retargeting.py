@@ -25,7 +25,8 @@ from mocap.editing.bodies import body_rotating
 from mocap.editing.boxes import Pins
 from mocap.editing.pins import join_pins, plant_pins, require_reachable, with_plants
 from mocap.editing.poses import MotionOrPoses, Poses, poses_of
-from mocap.editing.solver import Stage, closing_stages, solve_stages
+from mocap.editing.solver import solve_stages
+from mocap.editing.stages import Stage, closing_stages
 from mocap.editing.stances import Stance, stance_of, stance_of_zero
 from mocap.editing.standing import floor_for, mark_met
 from mocap.editing.toes import bend_toes

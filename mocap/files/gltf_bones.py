@@ -8,7 +8,8 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.body import rotations
-from mocap.body.limbs import has_named_legs, limb_partners
+from mocap.body.limb_partners import limb_partners
+from mocap.body.limbs import has_named_legs
 from mocap.body.skeleton import Skeleton, reaches
 
 UP = np.array([0.0, 1.0, 0.0])

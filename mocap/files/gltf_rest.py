@@ -14,7 +14,8 @@ import numpy as np
 from mocap._shared.arrays import Array, Indices
 from mocap.body import rotations
 from mocap.body.joint_trees import GlobalPoses, place_joints
-from mocap.body.limbs import SIDES, find_legs, has_named_legs, heading_by_hips, limb_partners, roles
+from mocap.body.limb_partners import limb_partners
+from mocap.body.limbs import SIDES, find_legs, has_named_legs, heading_by_hips, roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened, warn

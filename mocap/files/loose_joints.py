@@ -13,7 +13,8 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.joint_trees import world_positions
-from mocap.body.limb_search import LIMITS, UP, limb_pairs
+from mocap.body.limb_pairs import LIMITS, limb_pairs
+from mocap.body.limb_search import UP
 from mocap.body.limb_tree import BodyTree, largest_part
 from mocap.errors import shortened, warn
 from mocap.files.bvh_hierarchy import Joint

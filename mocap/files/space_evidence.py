@@ -11,7 +11,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask, frozen
 from mocap._shared.records import NamedTuple
-from mocap.body.limb_search import limb_pairs
+from mocap.body.limb_pairs import limb_pairs
 from mocap.body.limb_tree import BodyTree, extents, largest_part
 from mocap.files.tuned import TUNED
 

@@ -9,8 +9,9 @@ import pytest
 from limb_schemes import LEG, ODDITIES, SCHEMES, random_names, scheme_rig, walker, wrong_roles
 
 from mocap.body import limbs, rotations
+from mocap.body.limb_partners import limb_partners
 from mocap.body.limb_search import find_limbs
-from mocap.body.limbs import find_legs, limb_partners, roles, with_roles
+from mocap.body.limbs import find_legs, roles, with_roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.datasets import SAMPLES, sample

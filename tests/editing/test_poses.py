@@ -11,7 +11,8 @@ from mocap.datasets.samples import sample
 from mocap.editing import bend, edit, hierarchy, posed, retarget
 from mocap.editing.edits import edit_stages
 from mocap.editing.poses import poses_of
-from mocap.editing.solver import Stage, solve, solve_stages
+from mocap.editing.solver import solve, solve_stages
+from mocap.editing.stages import Stage
 from tests.editing.bodies import adult, child
 from tests.editing.wishes import hand, stone, walk
 

@@ -15,7 +15,8 @@ from mocap.editing.bodies import body_of
 from mocap.editing.displacements import displaced, spline_basis
 from mocap.editing.pins import join_pins, keep_turned, limit_turns, pin, pin_errors, plant_pins
 from mocap.editing.poses import poses_of
-from mocap.editing.solver import REACH, Curve, Stage, closing_stages, solve
+from mocap.editing.solver import solve
+from mocap.editing.stages import REACH, Curve, Stage, closing_stages
 from tests.editing.wishes import bar, bones, captured, smoothness, stone, walk
 from tests.refusals import refusals, told
 from tests.strategies import seeds

@@ -11,7 +11,7 @@ from mocap.body.limbs import find_legs
 from mocap.datasets.samples import SKELETON, sample
 from mocap.editing import bend, edit, pin, pin_errors, plant_pins, retarget, solve
 from mocap.editing.foot_cleaning import clean_feet
-from mocap.editing.solver import closing_stages
+from mocap.editing.stages import closing_stages
 from mocap.editing.stances import Stance
 from mocap.editing.toes import bend_toes, lowest_allowed, lowest_heights, toe_tips
 from mocap.editing.warp_plans import load_plan, warp

@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given
 
 from mocap.body import Skeleton, joint_positions, resample, rotations, with_roles
-from mocap.body.limbs import limb_partners, roles
+from mocap.body.limb_partners import limb_partners
+from mocap.body.limbs import roles
 from mocap.datasets import samples
 from mocap.errors import MocapWarning
 from mocap.files import gltf, load_save
