@@ -227,7 +227,7 @@ def is_used(tree: BodyTree, pair: Pair) -> bool:
     return all(np.ptp(_bend(tree, limb)) > LIMITS.bends for limb in pair)
 
 
-def share_on_floor(tree: BodyTree, pair: Pair) -> float:
+def fraction_on_floor(tree: BodyTree, pair: Pair) -> float:
     """Return the fraction of the frames in which a pair, below its hinges, holds the lowest joint."""
     lowest = tree.heights[:, tree.joints].min(axis=1)
     joints = [joint for limb in pair for joint in tree.below(limb.hinge)]
@@ -238,7 +238,7 @@ def share_on_floor(tree: BodyTree, pair: Pair) -> float:
 def leg_score(tree: BodyTree, pair: Pair) -> float:
     """Legs are on the floor, long, and hang."""
     length = min(length_of(tree, pair), 0.6)  # a longer pair is more likely a train or a wing than a leg
-    return share_on_floor(tree, pair) + 2 * length + drop_of(tree, pair)
+    return fraction_on_floor(tree, pair) + 2 * length + drop_of(tree, pair)
 
 
 def drop_of(tree: BodyTree, pair: Pair) -> float:

@@ -22,12 +22,12 @@ from mocap.body.limb_pairs import (
     Pair,
     arm_score,
     drop_of,
+    fraction_on_floor,
     is_used,
     leg_score,
     length_of,
     limb_pairs,
     overlap,
-    share_on_floor,
 )
 from mocap.body.limb_roles import arms_by_role, left_first, legs_by_role, trunk_by_role
 from mocap.body.limb_tree import BodyTree, Chain
@@ -93,11 +93,11 @@ def _doubts_of_legs(
     tree: BodyTree, names: Sequence[str], legs: Pair, rivals: Sequence[Pair]
 ) -> Iterator[str]:
     smallest = LIMITS.rival * leg_score(tree, legs)
-    on_floor = [pair for pair in rivals if share_on_floor(tree, pair) > LIMITS.forelegs]
+    on_floor = [pair for pair in rivals if fraction_on_floor(tree, pair) > LIMITS.forelegs]
     forelegs = [pair for pair in on_floor if leg_score(tree, pair) > smallest]
     if forelegs:
         yield f"more than two limbs are on the floor: {_ends(names, [legs, forelegs[0]])}"
-    if share_on_floor(tree, legs) < 0.5:
+    if fraction_on_floor(tree, legs) < 0.5:
         yield f"other joints are lower than {_ends(names, [legs])} in most frames"
     if drop_of(tree, legs) < LIMITS.hanging * length_of(tree, legs):
         yield f"the body lies or hangs, or up is another axis: the legs {_ends(names, [legs])} do not stand"
