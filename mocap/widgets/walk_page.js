@@ -20,6 +20,8 @@ import { LOOKS, rgb } from "./bodies.js";
 import { penOf } from "./canvas.js";
 import { COLOURS, Scene } from "./walk_scene.js";
 import { drawSmall } from "./walk_small.js";
+import { cutOf, trackOfWalk } from "./walk_steps.js";
+import { colourOfClip, Story } from "./walk_story.js";
 import { bvh, download, Gif } from "./walk_saving.js";
 
 /**
@@ -36,6 +38,7 @@ const LAG = 34; // frames from figure to figure of the parade
 const PARADE = 12; // figures of it
 const RESTS = 1.5; // seconds at the end of a walk until it begins anew
 const LONGEST = 20; // seconds of a walk that are saved as pictures
+const SEARCH_SHARE = 0.2; // of the time of a picture for the search, while the walk goes on
 const SEEN = 0.05; // metres: a line that is rounded by less is not called rounded
 
 /**
@@ -107,6 +110,7 @@ export class Page extends Hands {
   sharp = 1; // as a fraction of the screen's pixels
   slow = 0; // pictures that came late, at most 20
   ticks = 0; // pictures
+  cut = false; // whether seams are cut in place of blended
 
   /** @param {Graph} graph */
   constructor(graph) {
@@ -120,8 +124,10 @@ export class Page extends Hands {
     this.moments = $("moments");
     this.canvas = canvasOf("stage");
     this.small = canvasOf("small");
+    this.now = $("now");
     this.camera = new Camera();
-    this.scene = new Scene(this.canvas, this.about.figure, PARADE);
+    this.scene = new Scene(this.canvas, this.about.figure, PARADE + 2); // and the two moments of a seam
+    this.story = new Story(this);
     this.before = performance.now();
     this.listen();
     this.buttons();
@@ -235,7 +241,8 @@ export class Page extends Hands {
   grow(milliseconds) {
     const { walk } = this;
     const end = performance.now() + milliseconds;
-    while (!walk.done && walk.frames - this.time < 90 && performance.now() < end) {
+    const whole = this.story.step > 0; // the story tells of all of the walk
+    while (!walk.done && (whole || walk.frames - this.time < 90) && performance.now() < end) {
       this.growing ??= walk.grow();
       const { value, done } = this.growing.next();
       if (value) this.ghost = value;
@@ -320,9 +327,10 @@ export class Page extends Hands {
 
   fit() {
     const ratio = Math.min(devicePixelRatio, 2) * this.sharp;
-    this.width = innerWidth;
-    this.height = innerHeight;
-    Object.assign(this.canvas, { width: innerWidth * ratio, height: innerHeight * ratio });
+    this.width = this.canvas.clientWidth;
+    this.height = this.canvas.clientHeight;
+    Object.assign(this.canvas, { width: this.width * ratio, height: this.height * ratio });
+    this.story.fit();
   }
 
   /**
@@ -333,7 +341,8 @@ export class Page extends Hands {
   aim(seconds, snap = false) {
     const tall = this.width < this.height;
     if (this.stroke) return;
-    if (this.above) this.camera.holdAbove(this.line, this.width, this.height);
+    if (this.story.step && this.walk.frames) this.story.aim();
+    else if (this.above) this.camera.holdAbove(this.line, this.width, this.height);
     else if (!this.walk.frames) this.camera.hold(this.line, tall);
     else {
       const frame = Math.min(this.time, this.walk.frames - 1);
@@ -356,8 +365,9 @@ export class Page extends Hands {
       return;
     }
     // Half of the time where the figure would wait, however slow pictures are.
-    this.grow(walk.frames - this.time < 15 ? clamp(since, 40, 250) : 10);
-    if (this.playing && walk.frames && !this.stroke && !this.shown) this.walkOn(seconds);
+    this.grow(walk.frames - this.time < 15 ? clamp(since, 40, 250) : clamp(SEARCH_SHARE * since, 4, 40));
+    if (this.story.step && walk.frames) this.story.refresh();
+    if (this.playing && walk.frames && !this.stroke && !this.shown) this.story.walkOn(seconds);
     this.slow = clamp(this.slow + (seconds > 0.04 ? 1 : -1), 0, 20); // too few pictures a second: fewer pixels
     if (this.slow === 20 && this.sharp > 0.5) {
       this.sharp *= 0.8;
@@ -386,11 +396,16 @@ export class Page extends Hands {
   bodies() {
     const { walk, shown, previous } = this;
     if (!walk.frames) return previous ? [bodyAt(previous.walk, previous.time)] : [];
+    const told = this.story.bodies();
+    if (told) return told;
     if (shown) return shown.bodies;
+    const played = this.cut ? cutOf(walk) : walk;
     const all = Array.from({ length: this.figures }, (_, n) => this.time - n * LAG).filter(
       (time, n) => !n || time >= 0,
     );
-    return all.map((time) => bodyAt(walk, Math.min(time, walk.frames - 1)));
+    /** @param {number} time */
+    const bodyOf = (time) => bodyAt(played, Math.min(this.cut ? Math.floor(time) : time, walk.frames - 1));
+    return [...all.map(bodyOf), ...(this.pointed?.bodies ?? [])];
   }
 
   draw() {
@@ -404,19 +419,43 @@ export class Page extends Hands {
     const step = Math.max(3, Math.ceil(this.points.length / 700));
     const thin = this.points.filter((_, i) => i % step === 0);
     const here = walk.frames ? nearest(this.line, this.position()) / step : 0;
-    const pale = this.stroke ? 0.3 : 0.95; // beside the line that is drawn now
+    const told = this.story.step > 0 && walk.frames > 0;
+    const pale = this.stroke || told ? 0.3 : 0.95; // beside the line that is drawn now, and what is told
     if (this.rounded > SEEN) scene.band(this.drawn, half * 0.5, ink, () => 0.3, 0.003);
     scene.band(thin, half, line, (i) => (i < here ? 0.35 * pale : pale));
     if (this.stroke) scene.band(this.stroke, half, line, () => 1, 0.009);
-    if (this.ghost) this.drawGhost(this.ghost, half, ink);
-    if (walk.frames) {
-      this.drawTrail(half, ink);
-      this.drawPrints(ink);
-      this.drawSeams(half);
-    }
+    if (told) this.story.draw(half);
+    else this.drawWalk(half, ink);
     scene.draw(seen, look, this.bodies());
     this.ticks += 1;
-    if (this.ticks % 4 === 1) drawSmall(this, this.small);
+    if (this.ticks % 4 === 1 && !told) this.drawMap();
+  }
+
+  /**
+   * The search that is under way, and what the walk leaves on the ground.
+   * @param {number} half
+   * @param {number[]} ink
+   */
+  drawWalk(half, ink) {
+    if (this.ghost) this.drawGhost(this.ghost, half, ink);
+    if (!this.walk.frames) return;
+    this.drawTrail(half, ink);
+    this.drawPrints(ink);
+    this.drawSeams(half);
+  }
+
+  // The map, and the name of the clip that is played.
+  drawMap() {
+    const { walk, about } = this;
+    drawSmall(this, this.small);
+    if (!walk.frames) return;
+    const [at, frame] = edgeAt(walk, Math.floor(this.time));
+    const { start, end, seam, frames } = walk.edges[at];
+    const { clip } = seam && 2 * frame >= frames ? end : start;
+    const name = about.clips[clip].name.replaceAll("_", " ");
+    if (this.now.textContent === name) return;
+    this.now.textContent = name;
+    this.now.style.setProperty("--clip", colourOfClip(clip));
   }
 
   /**
@@ -456,15 +495,7 @@ export class Page extends Hands {
    * @param {number[]} colour
    */
   drawGhost(ghost, half, colour) {
-    /** @type {number[][]} */
-    const points = [];
-    for (let walk = ghost; walk.previous && walk.edge; walk = walk.previous) {
-      const [c, s, z, x] = walk.previous.transform;
-      const { track } = walk.edge;
-      for (let i = track.z.length - 1; i >= 0; i -= 3) {
-        points.push([c * track.z[i] - s * track.x[i] + z, s * track.z[i] + c * track.x[i] + x]);
-      }
-    }
+    const points = trackOfWalk(ghost, 3);
     if (points.length > 1) this.scene.band(points, half * 0.4, colour, () => 0.4, 0.006);
   }
 
@@ -507,8 +538,7 @@ export class Page extends Hands {
   buttons() {
     const { labels, moving, clips } = this.about;
     $("made").textContent =
-      `Its motion is new: pieces of ${clips.length} clips, joined at similar moments, the dots. Tap one!`;
-    $("caption").textContent = `${clips.length} clips, and where the walk is in them`;
+      `Its motion is new: pieces of ${clips.length} clips, joined by seams at similar moments, the dots. Tap one!`;
     moving.forEach((name) => {
       const kind = labels.indexOf(name);
       const button = Object.assign(document.createElement("button"), {
