@@ -95,6 +95,11 @@ export class Hands {
       this.fit();
     });
     addEventListener("hashchange", () => this.fromAddress());
+    addEventListener("keydown", (event) => {
+      if (event.key !== "z" || !(event.ctrlKey || event.metaKey)) return;
+      this.undo();
+      event.preventDefault();
+    });
   }
 
   /**

@@ -22,7 +22,7 @@ import { COLOURS, Scene } from "./walk_scene.js";
 import { drawSmall } from "./walk_small.js";
 import { cutOf, trackOfWalk } from "./walk_steps.js";
 import { colourOfClip, Story } from "./walk_story.js";
-import { bvh, download, Gif } from "./walk_saving.js";
+import { bvh, download, Film, Gif } from "./walk_saving.js";
 
 /**
  * @import { Print } from "./walk_body.js"
@@ -38,6 +38,9 @@ const LAG = 34; // frames from figure to figure of the parade
 const PARADE = 12; // figures of it
 const RESTS = 1.5; // seconds at the end of a walk until it begins anew
 const LONGEST = 20; // seconds of a walk that are saved as pictures
+const FILM_FPS = 30; // pictures of a film per second
+const FILM_END = 0.7; // seconds of the walk's end in a film
+const MOST_UNDONE = 50; // lines before
 const SEARCH_SHARE = 0.2; // of the time of a picture for the search, while the walk goes on
 const SEEN = 0.05; // metres: a line that is rounded by less is not called rounded
 
@@ -89,6 +92,10 @@ export class Page extends Hands {
   previous = null;
   /** @type {boolean} whether the walk is being saved as pictures */
   saving = false;
+  /** @type {Film | null} the film that is recorded while the walk plays */
+  film = null;
+  /** @type {{ drawn: number[][], kind: number }[]} the lines before this one */
+  past = [];
   /** @type {Generator<SearchedWalk, void> | null} the search that is under way */
   growing = null;
   /** @type {SearchedWalk | null} the best walk of it so far */
@@ -155,6 +162,7 @@ export class Page extends Hands {
       this.showMessage("Draw a longer line: a metre or more.");
       return;
     }
+    if (announced && this.drawn && this.drawn !== drawn) this.remember();
     this.points = this.begin(points, anew);
     this.line = arrays(this.points);
     this.drawn = drawn;
@@ -172,6 +180,24 @@ export class Page extends Hands {
       document.body.classList.add("walking");
       this.play(true); // also where motion is reduced: the reader asks for this walk
     }
+  }
+
+  // Keep the line that is walked, for an undo.
+  remember() {
+    this.past = [...this.past, { drawn: this.drawn, kind: this.kind }].slice(-MOST_UNDONE);
+    $("undo").hidden = false;
+  }
+
+  // Walk along the line before this one again.
+  undo() {
+    const before = this.past.pop();
+    $("undo").hidden = !this.past.length;
+    if (!before) return;
+    const { past } = this;
+    this.choose(before.kind);
+    this.set(walkable(before.drawn), { drawn: before.drawn, anew: true });
+    this.past = past; // an undo is no stroke
+    $("undo").hidden = !past.length;
   }
 
   /**
@@ -368,15 +394,23 @@ export class Page extends Hands {
     this.grow(walk.frames - this.time < 15 ? clamp(since, 40, 250) : clamp(SEARCH_SHARE * since, 4, 40));
     if (this.story.step && walk.frames) this.story.refresh();
     if (this.playing && walk.frames && !this.stroke && !this.shown) this.story.walkOn(seconds);
-    this.slow = clamp(this.slow + (seconds > 0.04 ? 1 : -1), 0, 20); // too few pictures a second: fewer pixels
-    if (this.slow === 20 && this.sharp > 0.5) {
-      this.sharp *= 0.8;
-      this.slow = 0;
-      this.fit();
-    }
+    this.sharpen(seconds);
     this.aim(seconds);
     this.draw();
+    if (this.film) this.watchFilm();
     requestAnimationFrame((next) => this.picture(next));
+  }
+
+  /**
+   * Draw fewer pixels if there are too few pictures a second.
+   * @param {number} seconds since the last one
+   */
+  sharpen(seconds) {
+    this.slow = clamp(this.slow + (seconds > 0.04 ? 1 : -1), 0, 20);
+    if (this.slow < 20 || this.sharp <= 0.5 || this.film) return;
+    this.sharp *= 0.8;
+    this.slow = 0;
+    this.fit();
   }
 
   /**
@@ -559,11 +593,16 @@ export class Page extends Hands {
       this.figures = this.figures > 1 ? 1 : PARADE;
       $("parade").setAttribute("aria-pressed", String(this.figures > 1));
     };
+    $("undo").onclick = () => this.undo();
     $("bvh").onclick = () => {
       this.finish();
       download(bvh(this.walk), "walk.bvh");
     };
     $("gif").onclick = () => this.saveGif();
+    $("film").onclick = () => (this.film ? this.endFilm() : this.beginFilm());
+    for (const name of ["bvh", "gif", "film"]) {
+      $(name).addEventListener("click", () => $("save").removeAttribute("open"));
+    }
     $("copy").onclick = () => this.copyLink();
   }
 
@@ -587,8 +626,43 @@ export class Page extends Hands {
     this.time = time;
   }
 
-  async saveGif() {
+  // Record the walk from its beginning while it plays.
+  beginFilm() {
     if (this.saving) return;
+    this.finish();
+    try {
+      this.film = new Film(this.canvas, FILM_FPS);
+    } catch (error) {
+      this.showMessage(error instanceof Error ? error.message : String(error));
+      return;
+    }
+    $("film").textContent = "stop the film";
+    this.shown = null;
+    this.time = 0;
+    this.rest = 0;
+    this.aim(0, true);
+    this.play(true);
+  }
+
+  // Show how much of the walk is recorded, and end the film with the walk.
+  watchFilm() {
+    const last = this.walk.frames - 1;
+    if (!this.walk.frames) return;
+    this.showMessage(`recording: ${Math.min(100, Math.round((100 * this.time) / last))} %`);
+    if (this.walk.done && this.time >= last && this.rest > FILM_END) this.endFilm();
+  }
+
+  async endFilm() {
+    const { film } = this;
+    if (!film) return;
+    this.film = null;
+    $("film").textContent = "film";
+    download(await film.stop(), film.name);
+    this.showMessage(`saved ${film.name}`);
+  }
+
+  async saveGif() {
+    if (this.saving || this.film) return;
     this.finish();
     this.saving = true;
     const { canvas, walk, time } = this;
