@@ -14,14 +14,15 @@ Reading order
 10. `walk`: `mocap walk`, `page` and `crowd`, which walk through a graph
 11. `clip_reports`: the numbers of clips, for `mocap info --json`
 12. `clips`: `mocap info`, `view`, `judge`, `convert` and `find`
-13. `data`: `mocap data`, which lists and downloads clips of other labs
-14. `edits`: `mocap warp`, `bend`, `loop`, `blend` and `retarget`
-15. `cutting`: `mocap cut`, which cuts, resamples, mirrors and repeats clips
-16. `in_betweens`: `mocap inbetween`, which fills the time between two clips
-17. `course`: `mocap course`, which hands out, marks, publishes and runs the notebooks, and `mocap lab`
-18. `help_pages`: help in plain text
-19. `refusals`: errors for invalid commands, options and values, with suggestions
-20. `streams`: output streams that are closed, full, or abandoned by their reader
-21. `main`: all commands under one name, with `mocap completion` and the exit status
-22. `tuned`: the constants that trials chose
+13. `labels`: `mocap label`, which proposes labels for clips
+14. `data`: `mocap data`, which lists and downloads clips of other labs
+15. `edits`: `mocap warp`, `bend`, `loop`, `blend` and `retarget`
+16. `cutting`: `mocap cut`, which cuts, resamples, mirrors and repeats clips
+17. `in_betweens`: `mocap inbetween`, which fills the time between two clips
+18. `course`: `mocap course`, which hands out, marks, publishes and runs the notebooks, and `mocap lab`
+19. `help_pages`: help in plain text
+20. `refusals`: errors for invalid commands, options and values, with suggestions
+21. `streams`: output streams that are closed, full, or abandoned by their reader
+22. `main`: all commands under one name, with `mocap completion` and the exit status
+23. `tuned`: the constants that trials chose
 """

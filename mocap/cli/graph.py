@@ -5,7 +5,7 @@ import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 from mocap import datasets, editing, graphs, quality, synthesis, widgets
 from mocap._shared.atomic import make_folder, require_folder, write_file
@@ -116,6 +116,8 @@ def build(
     by_labels: bool = False,
     whole: bool = False,
     mirror: bool = False,
+    labels: Path | None = None,
+    licence: str | None = None,
     graphml: Path | None = None,
     jobs: Annotated[int | None, number(1, 1024, int)] = None,
     cluster: str | None = None,
@@ -129,6 +131,10 @@ def build(
     by_labels : keep the largest component of each set of labels.
     whole : do not prune the graph.
     mirror : add the mirror image of each clip, so that all turns exist to the left and to the right.
+    labels : a .csv table with the columns clip, from, to and label, as written by mocap label. Its labels
+        replace those of the clips that it names.
+    licence (TEXT) : licence of the clips, or a .csv table with the columns clip and licence (default: that of
+        a known data set). mocap walk lists the licences of a walk.
     graphml : second file to write, .graphml, for other tools.
     jobs : number of threads that compare clips (default: all cores that this process may use).
     cluster (ADDRESS) : compare clips on the workers of a Dask scheduler, as in tcp://10.0.0.5:8786. The graph
@@ -148,7 +154,8 @@ def build(
     if graphml:
         check_out("graph for other tools", graphml, paths, [".graphml"])
     with connect(cluster) if cluster else nullcontext() as executor:
-        motions, origins = _read_clips(paths, clips, building, mirror=mirror)
+        read = _Clips(*building.load(paths, clips)).labelled(labels).licensed(licence)
+        motions, origins = _mirrored(*read) if mirror else read
         with timed_stage("building"), _units_explained(building):
             graph = building.build(motions, bar("comparing"), jobs=jobs, executor=executor)
     if not whole:
@@ -204,20 +211,49 @@ def _units_explained(building: Building) -> Iterator[None]:
         raise type(error)(f"{error}{advice}") from error
 
 
-def _read_clips(
-    paths: "Sequence[Path]", named: "Sequence[Path]", building: Building, *, mirror: bool
-) -> "tuple[list[Motion], list[Origin]]":
-    """Read clips, add their mirror images, and return them with the origins of all."""
-    motions, origins = building.load(paths, named)
-    if not mirror:
-        return motions, origins
+class _Clips(NamedTuple):
+    """Clips, and the files from which they were read."""
+
+    motions: "list[Motion]"
+    origins: list[Origin]
+
+    def labelled(self, table: Path | None) -> "_Clips":
+        """Give the clips the labels of a table, which their origins store."""
+        if table is None:
+            return self
+        from mocap.files.label_tables import label_clips, load_labels  # the help needs no NumPy
+
+        rows = load_labels(table)
+        motions = label_clips(self.motions, rows)
+        origins = []
+        for clip, origin in zip(motions, self.origins, strict=True):
+            of_clip = tuple((row.start, row.stop, row.label) for row in rows if row.clip == clip.name)
+            origins.append(origin._replace(labels=of_clip))
+        return _Clips(motions, origins)
+
+    def licensed(self, stated: str | None) -> "_Clips":
+        """Record the licences of the clips: that which is stated, those of a table, or of known data sets."""
+        from mocap.datasets.clip_licences import read_licences, with_licences
+
+        names = [clip.name for clip in self.motions]
+        is_table = stated is not None and stated.lower().endswith(".csv")
+        licences = read_licences(Path(stated), names) if stated and is_table else stated or {}
+        origins = with_licences(self.origins, names, licences)
+        unknown = sum(not origin.licence for origin in origins)
+        if unknown:
+            print_rows(licence=f"unknown for {unknown} of {len(origins)} clips; --licence records it")
+        return _Clips(self.motions, origins)
+
+
+def _mirrored(motions: "list[Motion]", origins: list[Origin]) -> _Clips:
+    """Add the mirror images of clips."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", MocapWarning)
-        motions += [editing.mirror(clip) for clip in motions]
+        motions = motions + [editing.mirror(clip) for clip in motions]
     if caught:  # one warning about asymmetric bodies is enough
         count = f" So it is with {len(caught) - 1} more." if len(caught) > 1 else ""
         warn(f"{caught[0].message}{count}")
-    return motions, origins + [origin._replace(mirrored=True) for origin in origins]
+    return _Clips(motions, origins + [origin._replace(mirrored=True) for origin in origins])
 
 
 def info(file: Path) -> None:

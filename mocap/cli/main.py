@@ -24,6 +24,7 @@ from mocap.cli.data import DATA
 from mocap.cli.edits import bend, blend, loop, retarget, warp
 from mocap.cli.graph import GRAPH, demo
 from mocap.cli.in_betweens import inbetween
+from mocap.cli.labels import label
 from mocap.cli.messages import VERBOSITY, Verbosity, at_verbosity, note, print_message
 from mocap.cli.options import named_options, retargeting_advised
 from mocap.cli.streams import PatientOutput, prepared_streams
@@ -83,7 +84,10 @@ def completion(shell: Literal["bash", "zsh", "fish"]) -> None:
 
 
 GRAPHS: Commands = {"demo": demo, "graph": GRAPH, "walk": walk, "page": page, "crowd": crowd}
-CLIPS: Commands = {"info": info, "view": view, "judge": judge, "convert": convert, "find": find}
+CLIPS: Commands = {
+    **{"info": info, "view": view, "judge": judge},
+    **{"convert": convert, "find": find, "label": label},
+}
 EDITS: Commands = {run.__name__: run for run in (cut, warp, bend, loop, blend, inbetween, retarget)}
 COURSES: Commands = {"data": DATA, "course": COURSE, "lab": lab}
 COMMANDS: dict[str, Commands] = {

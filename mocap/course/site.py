@@ -99,7 +99,7 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
         warned = io.StringIO()  # of papers cited twice
         Sphinx(folder, HERE, out, Path(folder, ".doctrees"), "html", status=None, warning=warned).build()
     graph = bundled_graph()
-    write_file(out / "walk.html", walk_page(graph, picture="walk.png"))
+    write_file(out / "walk.html", walk_page(graph, picture="walk.png", course="00-quickstart.html"))
     write_file(out / "walk.png", link_picture(graph))
     return out / "index.html"
 

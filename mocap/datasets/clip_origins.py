@@ -7,17 +7,20 @@ import os
 from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 AXES = (None, "y", "z", "-y", "-z", "x", "-x")  # that may point up in a file
 ROOT_OFFSETS = (None, "add", "ignore")
-OPTIONAL = ("mirrored", "up", "root_offset")  # parts of a text that may be missing
+OPTIONAL = ("mirrored", "up", "root_offset", "licence")  # parts of a text that may be missing
+LONGEST_LICENCE = 200  # characters
 
 
 class Origin(NamedTuple):
     """The file from which a clip was read, and the parameters of `mocap.load`.
 
-    If `mirrored`, the clip is the mirror image of the motion in the file.
+    If `mirrored`, the clip is the mirror image of the motion in the file. `labels` are rows (start, stop,
+    label) as of `files.label_tables`, which replace the labels of the file; `licence` is that of the clip, ""
+    if it is unknown.
     """
 
     path: Path
@@ -26,6 +29,8 @@ class Origin(NamedTuple):
     mirrored: bool = False
     up: str | None = None
     root_offset: str | None = None
+    licence: str = ""
+    labels: tuple[tuple[str, str, str], ...] = ()
 
     def text(self, folder: Path) -> str:
         """Serialise an origin as JSON, with the path of each file relative to a folder, and absolute.
@@ -44,6 +49,10 @@ class Origin(NamedTuple):
             kept["up"] = self.up
         if self.root_offset is not None:
             kept["root_offset"] = self.root_offset
+        if self.licence:
+            kept["licence"] = self.licence
+        if self.labels:
+            kept["labels"] = self.labels
         return json.dumps(kept)
 
 
@@ -67,8 +76,26 @@ def find_again(text: str, folder: Path) -> Origin | None:
     skeleton = _first_file(folder / name for name in kept["skeleton"])
     if path is None:
         return None
+    return _with_options(Origin(path, skeleton, kept["scale"]), kept)
+
+
+def stored_options(text: str) -> Origin:
+    """Return an origin without its files, from `Origin.text`: what is known of a clip wherever it is.
+
+    Examples
+    --------
+    >>> stored_options(Origin(Path("walk.bvh"), licence="CC0").text(Path("."))).licence
+    'CC0'
+    """
+    kept = json.loads(text)
+    return _with_options(Origin(Path(), None, kept["scale"]), kept)
+
+
+def _with_options(origin: Origin, kept: dict[str, Any]) -> Origin:
+    """Return an origin with the parts of a text that may be missing."""
     options = {name: kept[name] for name in OPTIONAL if name in kept}
-    return Origin(path, skeleton, kept["scale"], **options)
+    labels = tuple((start, stop, label) for start, stop, label in kept.get("labels", ()))
+    return origin._replace(**options, labels=labels)
 
 
 def _first_file(places: Iterable[Path]) -> Path | None:
@@ -88,5 +115,26 @@ def is_origin(text: str) -> bool:
             case {"path": [*path], "skeleton": [*skeleton], "scale": float() | None, **more}:
                 fine = isinstance(more.get("mirrored", False), bool) and more.get("up") in AXES
                 fine = fine and more.get("root_offset") in ROOT_OFFSETS
+                fine = fine and _is_licence(more.get("licence", "")) and _are_labels(more.get("labels", []))
                 return fine and all(isinstance(place, str) for place in path + skeleton)
+    return False
+
+
+def _is_licence(value: object) -> bool:
+    """Return whether a value is a short text."""
+    return isinstance(value, str) and len(value) <= LONGEST_LICENCE
+
+
+def _are_labels(value: object) -> bool:
+    """Return whether a value is a list of rows (start, stop, label) with valid times."""
+    return isinstance(value, list) and all(map(_is_label, value))
+
+
+def _is_label(row: object) -> bool:
+    """Return whether a value is a row (start, stop, label) with valid times."""
+    from mocap.files.label_tables import TIME  # the help of commands needs no NumPy
+
+    match row:
+        case [str(start), str(stop), str(label)]:
+            return bool(TIME.fullmatch(start) and TIME.fullmatch(stop) and label)
     return False

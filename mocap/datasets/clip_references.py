@@ -18,11 +18,12 @@ from mocap._shared.progress import Progress
 from mocap._shared.records import NamedTuple
 from mocap.body.fingerprints import fingerprint
 from mocap.body.motion import Motion, require_compatible, resample
-from mocap.datasets.clip_origins import Origin, find_again, is_origin
+from mocap.datasets.clip_origins import Origin, find_again, is_origin, stored_options
 from mocap.datasets.samples import FPS, FRAMES_IN_0_1, SAMPLES, sample
-from mocap.editing.mirroring import mirror
+from mocap.editing.mirroring import mirror, mirrored_label
 from mocap.errors import MocapError, Remedy, shortened
 from mocap.files.conversion import is_clip
+from mocap.files.label_tables import LabelRow, label_clips
 from mocap.files.load_save import load
 from mocap.files.role_maps import are_packed_roles, packed_roles, unpacked_roles
 
@@ -133,6 +134,8 @@ def load_references(
     """
     if clips is None:
         clips = _load_clips(references, path, skeleton, progress)
+    else:
+        clips = _with_stored_labels(clips, references)
     resampled = [resample(clip, references.fps) for clip in clips]
     needed = [clip for clip in resampled if clip.name in references.names]
     with suppress(MocapError):  # give all clips the same end sites (differences are reported below)
@@ -151,6 +154,16 @@ def load_references(
             raise _difference(path, by_name[name][-1], length)
         chosen.append(fitting[0])
     return _with_stored_roles(chosen, references)
+
+
+def _with_stored_labels(clips: Sequence[Motion], references: ClipReferences) -> list[Motion]:
+    """Give clips the labels that are stored, which replace others; those without keep theirs."""
+    rows: dict[str, list[LabelRow]] = {}
+    for name, text in zip(references.names, references.origins, strict=False):
+        origin = stored_options(text)
+        change = mirrored_label if origin.mirrored else str
+        rows[name] = [LabelRow(name, start, stop, change(label)) for start, stop, label in origin.labels]
+    return [label_clips([clip], rows.get(clip.name, ()))[0] for clip in clips]
 
 
 def _with_stored_roles(clips: Sequence[Motion], references: ClipReferences) -> list[Motion]:
@@ -181,6 +194,8 @@ def _load_clips(
             root_offset=origin.root_offset,
             roles=roles,
         )
+        labels = [LabelRow(clip.name, *row) for row in origin.labels]
+        (clip,) = label_clips([clip], labels)
         clips.append(replace(mirror(clip) if origin.mirrored else clip, name=name))
     return clips
 

@@ -50,6 +50,18 @@ def _registry() -> dict[str, dict[str, str]]:
         return {row["file"]: row for row in csv.DictReader(file, delimiter="\t")}
 
 
+def is_listed(name: str, digest: str) -> bool:
+    """Return whether a file of this name and SHA-256 is part of the database.
+
+    Examples
+    --------
+    >>> is_listed("02_01.amc", "0")
+    False
+    """
+    listed = _registry().get(f"{name.split('_')[0].removesuffix('.asf')}/{name}")
+    return listed is not None and listed["sha256"] == digest
+
+
 def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
     """List the trials that `cmu` can return.
 

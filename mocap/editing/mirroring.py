@@ -149,6 +149,17 @@ def mirrored_name(name: str) -> str:
     return name.removesuffix(ENDING) if name.endswith(ENDING) else name + ENDING
 
 
+def mirrored_label(name: str) -> str:
+    """Return the label of a mirror image: the words left and right change places.
+
+    Examples
+    --------
+    >>> mirrored_label("turn left"), mirrored_label("walk")
+    ('turn right', 'walk')
+    """
+    return re.sub("|".join(OPPOSITE), lambda word: OPPOSITE[word[0]], name)
+
+
 def mirror(motion: Motion) -> Motion:
     """Mirror a motion, in the body and on the ground: x becomes -x.
 
@@ -199,8 +210,7 @@ def mirror(motion: Motion) -> Motion:
     vectors = -motion.rotations[..., 1:] @ _reflection(across)  # (w, v) becomes (w, -H v)
     flipped = np.concatenate([motion.rotations[..., :1], vectors], axis=-1)
     local = rotations.multiply(parent_turns, rotations.multiply(flipped, turns))
-    pattern = re.compile("|".join(OPPOSITE))
-    labels = {pattern.sub(lambda word: OPPOSITE[word[0]], name): mark for name, mark in motion.labels.items()}
+    labels = {mirrored_label(name): mark for name, mark in motion.labels.items()}
     names = dict(zip(skeleton.names, (skeleton.names[joint] for joint in partners), strict=True))
     contacts = {names[joint]: mark for joint, mark in motion.contacts.items()}
     root_positions = motion.root_positions @ _reflection(ACROSS)

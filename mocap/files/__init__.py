@@ -34,7 +34,9 @@ Reading order (notebooks 01, 10)
 27. `gltf_rest`: a rest pose that stands on the floor
 28. `gltf_bones`: the directions of bones, and the axes of joints along them
 29. `gltf`: writer of glTF files, with joints, skin and animation
-30. `tuned`: the constants that trials chose
+30. `named_tables`: tables with named columns
+31. `label_tables`: labels of clips from tables
+32. `tuned`: the constants that trials chose
 
 References
 ----------

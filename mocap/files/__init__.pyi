@@ -1,4 +1,8 @@
 from . import asf as asf
+from .label_tables import LabelRow as LabelRow
+from .label_tables import label_clips as label_clips
+from .label_tables import load_labels as load_labels
+from .label_tables import save_labels as save_labels
 from .load_save import load as load
 from .load_save import read_angles as read_angles
 from .load_save import save as save

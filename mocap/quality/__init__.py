@@ -6,19 +6,22 @@ A new measure of clips belongs in `clip_flaws`, one of seams in `seam_measures`,
 
 Reading order (notebooks 01, 04, 09 to 11)
 ----------------------------------------
-1. `clip_flaws`: a clip's duration, its path and its flaws
-2. `seam_measures`: foot sliding, jumps of velocity at a seam, rotations of the knees
-3. `falling`: the centre of mass, and its acceleration in a flight
-4. `joint_limits`: joint angles and the human range of motion
-5. `measures`: a measured value, and what all measures of a motion start from
-6. `smoothness`: jolts, snapping bones, frozen stretches and trembling
-7. `standing_feet`: feet that slide, or sink below the height at which they stand
-8. `judging`: the measures of any motion, each divided by its limit
-9. `limits`: the limits, which captured people keep
+ 1. `clip_flaws`: a clip's duration, its path and its flaws
+ 2. `seam_measures`: foot sliding, jumps of velocity at a seam, rotations of the knees
+ 3. `falling`: the centre of mass, and its acceleration in a flight
+ 4. `joint_limits`: joint angles and the human range of motion
+ 5. `measures`: a measured value, and what all measures of a motion start from
+ 6. `smoothness`: jolts, snapping bones, frozen stretches and trembling
+ 7. `standing_feet`: feet that slide, or sink below the height at which they stand
+ 8. `judging`: the measures of any motion, each divided by its limit
+ 9. `limits`: the limits, which captured people keep
+10. `label_proposals`: proposed labels of a clip, by its pace, its turns, and where it stands
 
 References
 ----------
 .. [AAOS65] American Academy of Orthopaedic Surgeons, *Joint Motion: Method of Measuring and Recording*, 1965.
+.. [Ale89] R. McN. Alexander, *Optimization and Gaits in the Locomotion of Vertebrates*, Physiological Reviews
+   69(4), 1989, doi 10.1152/physrev.1989.69.4.1199.
 .. [Winter09] D. A. Winter, *Biomechanics and Motor Control of Human Movement*, 4th ed., Wiley 2009.
 """
 

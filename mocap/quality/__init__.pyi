@@ -4,6 +4,7 @@ from .falling import gravity as gravity
 from .judging import Judgement as Judgement
 from .judging import Measure as Measure
 from .judging import judge as judge
+from .label_proposals import propose_labels as propose_labels
 from .seam_measures import foot_sliding as foot_sliding
 from .seam_measures import jumps as jumps
 from .seam_measures import knee_rotations as knee_rotations

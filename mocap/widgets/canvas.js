@@ -1,5 +1,7 @@
 // Lines and discs on a canvas, and where the points of its maps are: what pages and widgets draw alike.
 
+/** @typedef {CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D} Pen */
+
 /**
  * The pen of a canvas.
  * @param {HTMLCanvasElement} canvas
@@ -30,7 +32,7 @@ export function clearedPen(canvas) {
 
 /**
  * Stroke the current path of a pen.
- * @param {CanvasRenderingContext2D} pen
+ * @param {Pen} pen
  * @param {string} colour
  * @param {number} width
  * @param {number} alpha
@@ -45,7 +47,7 @@ export function paintStroke(pen, colour, width, alpha = 1) {
 
 /**
  * A line through points [x, y].
- * @param {CanvasRenderingContext2D} pen
+ * @param {Pen} pen
  * @param {number[][]} points
  * @param {string} colour
  * @param {number} width

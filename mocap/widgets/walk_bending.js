@@ -499,12 +499,23 @@ export class Bending {
    * @returns {Pose}
    */
   posed(pose, frame) {
+    const { root, rotations } = this.carriedPose(pose, frame);
+    this.limbs.forEach((_, n) => this.solve(pose, frame, n, rotations));
+    return { root: [root[0], root[1] - this.sinking[frame], root[2]], rotations };
+  }
+
+  /**
+   * The pose of a frame, carried onto the line. Its feet are not held.
+   * @param {Pose} pose
+   * @param {number} frame
+   * @returns {Pose}
+   */
+  carriedPose(pose, frame) {
     const [c, s] = this.carried[frame];
     const [z, x] = carry(this.carried[frame], [pose.root[2], pose.root[0]]);
     const rotations = [...pose.rotations];
-    this.limbs.forEach((_, n) => this.solve(pose, frame, n, rotations));
     rotations[0] = product(about([0, 1, 0], Math.atan2(s, c)), rotations[0]);
-    return { root: [x, pose.root[1] - this.sinking[frame], z], rotations };
+    return { root: [x, pose.root[1], z], rotations };
   }
 
   /**

@@ -15,7 +15,8 @@ import { compose } from "./walk_search.js";
  *
  * The data of a walk that its display needs: its edges, with the transform and the first frame of each, and its bending.
  * @typedef {{
- *   graph: Graph, edges: PlayedEdge[], transforms: Transform[], begins: number[], frames: number, bending?: Bending,
+ *   graph: Graph, edges: PlayedEdge[], transforms: Transform[], begins: number[], frames: number,
+ *   bending?: Pick<Bending, "posed">,
  * }} Played
  * @typedef {Pick<Edge, "start" | "end" | "seam" | "frames" | "transform">} PlayedEdge
  *

@@ -18,7 +18,8 @@ const INSIDE = 0.84; // of the picture: what must stay in view is not nearer to 
 const ROOM = 2.6; // metres around a line from above: at a rim, a body leans out of it
 const FOOTER = 90; // pixels below the picture from above
 const STRAIGHT_DOWN = Math.PI / 2;
-const NAMES = /** @type {const} */ (["z", "x", "y", "yaw", "pitch", "far"]);
+const CLOSE = 3.4; // metres from a figure that is seen from the side
+const NAMES = /** @type {const} */ (["z", "x", "y", "yaw", "pitch", "far", "aside", "below"]);
 
 /**
  * What is a metre away from the axis at a distance of a metre, in half widths and half heights of the picture.
@@ -39,8 +40,23 @@ const axesOf = (yaw) => [
   [-Math.cos(yaw), -Math.sin(yaw)],
 ];
 
+/**
+ * The matrix of a view whose middle is beside that of the picture, by parts of its half width and its half height.
+ * @param {Float32Array} view
+ * @param {number} across
+ * @param {number} up
+ */
+function shifted(view, across, up) {
+  for (let column = 0; column < 16; column += 4) {
+    view[column] += across * view[column + 3];
+    view[column + 1] += up * view[column + 3];
+  }
+  return view;
+}
+
 export class Camera {
-  at = { z: 0, x: 0, y: 0.5, yaw: -0.5, pitch: 0.9, far: 9 };
+  // `aside` and `below` are the shares of the picture that are covered at the right and at the bottom.
+  at = { z: 0, x: 0, y: 0.5, yaw: -0.5, pitch: 0.9, far: 9, aside: 0, below: 0 };
   goal = { ...this.at };
   hand = { yaw: 0, pitch: 0, zoom: 1 };
   // Of the last picture.
@@ -69,10 +85,12 @@ export class Camera {
    * @param {Line} line
    * @param {number} width
    * @param {number} height
+   * @param {number} footer pixels below it
    */
-  holdAbove({ z, x }, width, height) {
+  holdAbove({ z, x }, width, height, footer = FOOTER) {
     const scale = scaleOf(width, height);
-    const free = Math.max(0.4, 1 - FOOTER / height); // of the height, above the buttons
+    const { aside, below } = this.goal;
+    const free = Math.max(0.4, 1 - footer / height); // of the height, above the buttons
     let best = { far: Infinity, yaw: 0, across: [0, 0], up: [0, 0] };
     for (let yaw = 0; yaw < Math.PI; yaw += Math.PI / 24) {
       const [across, up] = axesOf(yaw).map(([az, ax]) => {
@@ -80,8 +98,8 @@ export class Camera {
         return [Math.min(...along), Math.max(...along)];
       });
       const far = Math.max(
-        ((across[1] - across[0] + ROOM) / 2) * scale.across,
-        (((up[1] - up[0] + ROOM) / 2) * scale.up) / free,
+        (((across[1] - across[0] + ROOM) / 2) * scale.across) / (1 - aside),
+        (((up[1] - up[0] + ROOM) / 2) * scale.up) / free / (1 - below),
         3,
       );
       if (far < best.far) best = { far, yaw, across, up };
@@ -119,7 +137,7 @@ export class Camera {
       : (seen ?? [this.at.z, this.at.x]);
     const far = half * scaleOf(width, height).across;
     Object.assign(this.hand, { yaw: 0, pitch: 0, zoom: 1 });
-    Object.assign(this.at, { z, x, y: 0, pitch: STRAIGHT_DOWN, yaw, far });
+    Object.assign(this.at, { z, x, y: 0, pitch: STRAIGHT_DOWN, yaw, far, aside: 0, below: 0 });
     this.goal = { ...this.at };
     if (seen) this.keepInView(seen, width, height);
     this.view(width, height);
@@ -166,6 +184,20 @@ export class Camera {
   }
 
   /**
+   * Look from the side at a figure with a heading, and at what is within a reach of it.
+   * @param {number[]} position
+   * @param {number} heading
+   * @param {number} reach metres
+   * @param {number[]} size of the picture, pixels
+   */
+  beside([z, x], heading, reach, [width, height]) {
+    const { aside, below } = this.goal;
+    const scale = scaleOf(width, height);
+    const far = Math.max(CLOSE / (1 - below), (reach * scale.across) / (1 - aside));
+    Object.assign(this.goal, { z, x, y: 0.85, pitch: 0.12, yaw: heading + Math.PI / 2, far });
+  }
+
+  /**
    * @param {number} seconds
    * @param {boolean} snap
    */
@@ -194,7 +226,7 @@ export class Camera {
     const up = [-sp * sy, cp, -sp * cy];
     const eye = [at.x + far * back[0], at.y + far * back[1], at.z + far * back[2]];
     const { across: wide, up: zoom } = scaleOf(width, height);
-    const view = perspective({ eye, right, up, back }, [wide, zoom], 0.1, 200);
+    const view = shifted(perspective({ eye, right, up, back }, [wide, zoom], 0.1, 200), -at.aside, at.below);
     const sun = unit([-0.62 * cy + 0.34 * sy, 0.95, 0.62 * sy + 0.34 * cy]); // over the left shoulder of the viewer
     Object.assign(this, { eye, right, up, back, zoom, wide, width, height });
     return { view, eye, target: [at.x, 0, at.z], sun, zoom };
@@ -206,8 +238,8 @@ export class Camera {
    * @param {number} py
    */
   ground(px, py) {
-    const x = ((px / this.width) * 2 - 1) / this.wide;
-    const y = (1 - (py / this.height) * 2) / this.zoom;
+    const x = ((px / this.width) * 2 - 1 + this.at.aside) / this.wide;
+    const y = (1 - (py / this.height) * 2 - this.at.below) / this.zoom;
     const ray = [0, 1, 2].map((k) => this.right[k] * x + this.up[k] * y - this.back[k]);
     if (ray[1] > -0.02) return null;
     const far = Math.min(-this.eye[1] / ray[1], 60);

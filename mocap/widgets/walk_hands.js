@@ -8,6 +8,7 @@ import { compose } from "./walk_search.js";
  * @import { Body } from "./walk_body.js"
  * @import { Page } from "./walk_page.js"
  * @import { Node, Transform } from "./walk_search.js"
+ * @import { Seam } from "./walk_story.js"
  *
  * A moment of a clip.
  * @typedef {Pick<Node, "clip" | "frame">} Moment
@@ -54,6 +55,8 @@ export class Hands {
   pen = 0;
   /** @type {{ bodies: Body[] } | null} what is shown while the walk stands still */
   shown = null;
+  /** @type {{ bodies: Body[] } | null} the two moments of the seam under the mouse */
+  pointed = null;
 
   /** @this {Page} */
   listen() {
@@ -62,7 +65,8 @@ export class Hands {
     canvas.addEventListener("pointerdown", (event) => {
       this.touches.set(event.pointerId, event);
       canvas.setPointerCapture(event.pointerId);
-      if (this.touches.size > 1 || event.button === 2 || event.shiftKey) {
+      this.pointAt(undefined);
+      if (this.story.step || this.touches.size > 1 || event.button === 2 || event.shiftKey) {
         this.endStroke();
         this.pressed = null;
         this.orbiting = true;
@@ -79,6 +83,7 @@ export class Hands {
       "wheel",
       (event) => {
         const { hand } = this.camera;
+        if (!event.ctrlKey) return; // a wheel alone scrolls to the story
         if (!this.stroke) hand.zoom = clampedZoom(hand.zoom * Math.exp(event.deltaY / 900));
         event.preventDefault();
       },
@@ -90,6 +95,11 @@ export class Hands {
       this.fit();
     });
     addEventListener("hashchange", () => this.fromAddress());
+    addEventListener("keydown", (event) => {
+      if (event.key !== "z" || !(event.ctrlKey || event.metaKey)) return;
+      this.undo();
+      event.preventDefault();
+    });
   }
 
   /**
@@ -100,7 +110,7 @@ export class Hands {
     const previous = this.touches.get(event.pointerId);
     if (!previous) {
       const point = this.camera.ground(event.clientX, event.clientY);
-      this.canvas.style.cursor = point && this.seamNear(point) ? "pointer" : "";
+      this.pointAt(point && !this.story.step && !this.shown ? this.seamNear(point) : undefined);
       return;
     }
     if (this.orbiting) this.orbit(event, previous);
@@ -218,6 +228,20 @@ export class Hands {
   }
 
   /**
+   * Show the two moments of the seam under the mouse, while the walk goes on.
+   * @this {Page}
+   * @param {Seam | undefined} seam
+   */
+  pointAt(seam) {
+    this.canvas.style.cursor = seam ? "pointer" : "";
+    if (!seam && !this.pointed) return;
+    const moments = seam && this.momentsOf(seam, ASIDE);
+    this.pointed = moments ?? null;
+    this.moments.hidden = !seam;
+    if (moments) this.moments.textContent = `Two similar moments, from ${moments.words}.`;
+  }
+
+  /**
    * Show the two moments that a seam joins, side by side, or walk on if there is no seam.
    * @this {Page}
    * @param {number[]} point
@@ -231,9 +255,25 @@ export class Hands {
 
   /**
    * @this {Page}
-   * @param {{ at: number, frame: number }} seam
+   * @param {Seam} seam
    */
   showMoments(seam) {
+    const { words, bodies } = this.momentsOf(seam, ASIDE);
+    this.shown = { bodies };
+    this.time = seam.frame;
+    this.moments.textContent =
+      `Two similar moments: ${words}. ` + "Here the walk passes from one into the other. Tap to walk on.";
+    this.moments.hidden = false;
+    document.body.classList.add("walking"); // the words at the top make room
+  }
+
+  /**
+   * The two moments that a seam joins: their bodies, some metres aside from it, and their clips and times.
+   * @this {Page}
+   * @param {Seam} seam
+   * @param {number} aside
+   */
+  momentsOf(seam, aside) {
     const { walk, about } = this;
     const { at, frame } = seam;
     const edge = walk.edges[at];
@@ -241,17 +281,14 @@ export class Hands {
     const from = { clip: edge.start.clip, frame: edge.start.frame + 5 };
     const to = { clip: edge.end.clip, frame: edge.end.frame - 5 };
     const target = compose(transform, edge.transform);
-    this.shown = { bodies: [this.still(from, transform, -ASIDE), this.still(to, target, ASIDE)] };
-    this.time = frame;
     const [first, second] = [from, to].map(
       (moment) =>
         `${about.clips[moment.clip].name.replaceAll("_", " ")}, ${(moment.frame / about.fps).toFixed(1)} s`,
     );
-    this.moments.textContent =
-      `Two similar moments: ${first} and ${second}. ` +
-      "Here the walk passes from one into the other. Tap to walk on.";
-    this.moments.hidden = false;
-    document.body.classList.add("walking"); // the words at the top make room
+    return {
+      bodies: [this.still(from, transform, -aside), this.still(to, target, aside)],
+      words: `${first}, to ${second}`,
+    };
   }
 
   /**

@@ -20,7 +20,9 @@ import { LOOKS, rgb } from "./bodies.js";
 import { penOf } from "./canvas.js";
 import { COLOURS, Scene } from "./walk_scene.js";
 import { drawSmall } from "./walk_small.js";
-import { bvh, download, Gif } from "./walk_saving.js";
+import { cutOf, trackOfWalk } from "./walk_steps.js";
+import { colourOfClip, Story } from "./walk_story.js";
+import { bvh, download, Film, Gif } from "./walk_saving.js";
 
 /**
  * @import { Print } from "./walk_body.js"
@@ -36,6 +38,10 @@ const LAG = 34; // frames from figure to figure of the parade
 const PARADE = 12; // figures of it
 const RESTS = 1.5; // seconds at the end of a walk until it begins anew
 const LONGEST = 20; // seconds of a walk that are saved as pictures
+const FILM_FPS = 30; // pictures of a film per second
+const FILM_END = 0.7; // seconds of the walk's end in a film
+const MOST_UNDONE = 50; // lines before
+const SEARCH_SHARE = 0.2; // of the time of a picture for the search, while the walk goes on
 const SEEN = 0.05; // metres: a line that is rounded by less is not called rounded
 
 /**
@@ -86,6 +92,10 @@ export class Page extends Hands {
   previous = null;
   /** @type {boolean} whether the walk is being saved as pictures */
   saving = false;
+  /** @type {Film | null} the film that is recorded while the walk plays */
+  film = null;
+  /** @type {{ drawn: number[][], kind: number }[]} the lines before this one */
+  past = [];
   /** @type {Generator<SearchedWalk, void> | null} the search that is under way */
   growing = null;
   /** @type {SearchedWalk | null} the best walk of it so far */
@@ -107,6 +117,7 @@ export class Page extends Hands {
   sharp = 1; // as a fraction of the screen's pixels
   slow = 0; // pictures that came late, at most 20
   ticks = 0; // pictures
+  cut = false; // whether seams are cut in place of blended
 
   /** @param {Graph} graph */
   constructor(graph) {
@@ -120,8 +131,10 @@ export class Page extends Hands {
     this.moments = $("moments");
     this.canvas = canvasOf("stage");
     this.small = canvasOf("small");
+    this.now = $("now");
     this.camera = new Camera();
-    this.scene = new Scene(this.canvas, this.about.figure, PARADE);
+    this.scene = new Scene(this.canvas, this.about.figure, PARADE + 2); // and the two moments of a seam
+    this.story = new Story(this);
     this.before = performance.now();
     this.listen();
     this.buttons();
@@ -149,6 +162,7 @@ export class Page extends Hands {
       this.showMessage("Draw a longer line: a metre or more.");
       return;
     }
+    if (announced && this.drawn && this.drawn !== drawn) this.remember();
     this.points = this.begin(points, anew);
     this.line = arrays(this.points);
     this.drawn = drawn;
@@ -166,6 +180,24 @@ export class Page extends Hands {
       document.body.classList.add("walking");
       this.play(true); // also where motion is reduced: the reader asks for this walk
     }
+  }
+
+  // Keep the line that is walked, for an undo.
+  remember() {
+    this.past = [...this.past, { drawn: this.drawn, kind: this.kind }].slice(-MOST_UNDONE);
+    $("undo").hidden = false;
+  }
+
+  // Walk along the line before this one again.
+  undo() {
+    const before = this.past.pop();
+    $("undo").hidden = !this.past.length;
+    if (!before) return;
+    const { past } = this;
+    this.choose(before.kind);
+    this.set(walkable(before.drawn), { drawn: before.drawn, anew: true });
+    this.past = past; // an undo is no stroke
+    $("undo").hidden = !past.length;
   }
 
   /**
@@ -235,7 +267,8 @@ export class Page extends Hands {
   grow(milliseconds) {
     const { walk } = this;
     const end = performance.now() + milliseconds;
-    while (!walk.done && walk.frames - this.time < 90 && performance.now() < end) {
+    const whole = this.story.step > 0; // the story tells of all of the walk
+    while (!walk.done && (whole || walk.frames - this.time < 90) && performance.now() < end) {
       this.growing ??= walk.grow();
       const { value, done } = this.growing.next();
       if (value) this.ghost = value;
@@ -320,9 +353,10 @@ export class Page extends Hands {
 
   fit() {
     const ratio = Math.min(devicePixelRatio, 2) * this.sharp;
-    this.width = innerWidth;
-    this.height = innerHeight;
-    Object.assign(this.canvas, { width: innerWidth * ratio, height: innerHeight * ratio });
+    this.width = this.canvas.clientWidth;
+    this.height = this.canvas.clientHeight;
+    Object.assign(this.canvas, { width: this.width * ratio, height: this.height * ratio });
+    this.story.fit();
   }
 
   /**
@@ -333,7 +367,8 @@ export class Page extends Hands {
   aim(seconds, snap = false) {
     const tall = this.width < this.height;
     if (this.stroke) return;
-    if (this.above) this.camera.holdAbove(this.line, this.width, this.height);
+    if (this.story.step && this.walk.frames) this.story.aim();
+    else if (this.above) this.camera.holdAbove(this.line, this.width, this.height);
     else if (!this.walk.frames) this.camera.hold(this.line, tall);
     else {
       const frame = Math.min(this.time, this.walk.frames - 1);
@@ -356,17 +391,26 @@ export class Page extends Hands {
       return;
     }
     // Half of the time where the figure would wait, however slow pictures are.
-    this.grow(walk.frames - this.time < 15 ? clamp(since, 40, 250) : 10);
-    if (this.playing && walk.frames && !this.stroke && !this.shown) this.walkOn(seconds);
-    this.slow = clamp(this.slow + (seconds > 0.04 ? 1 : -1), 0, 20); // too few pictures a second: fewer pixels
-    if (this.slow === 20 && this.sharp > 0.5) {
-      this.sharp *= 0.8;
-      this.slow = 0;
-      this.fit();
-    }
+    this.grow(walk.frames - this.time < 15 ? clamp(since, 40, 250) : clamp(SEARCH_SHARE * since, 4, 40));
+    if (this.story.step && walk.frames) this.story.refresh();
+    if (this.playing && walk.frames && !this.stroke && !this.shown) this.story.walkOn(seconds);
+    this.sharpen(seconds);
     this.aim(seconds);
     this.draw();
+    if (this.film) this.watchFilm();
     requestAnimationFrame((next) => this.picture(next));
+  }
+
+  /**
+   * Draw fewer pixels if there are too few pictures a second.
+   * @param {number} seconds since the last one
+   */
+  sharpen(seconds) {
+    this.slow = clamp(this.slow + (seconds > 0.04 ? 1 : -1), 0, 20);
+    if (this.slow < 20 || this.sharp <= 0.5 || this.film) return;
+    this.sharp *= 0.8;
+    this.slow = 0;
+    this.fit();
   }
 
   /**
@@ -386,11 +430,16 @@ export class Page extends Hands {
   bodies() {
     const { walk, shown, previous } = this;
     if (!walk.frames) return previous ? [bodyAt(previous.walk, previous.time)] : [];
+    const told = this.story.bodies();
+    if (told) return told;
     if (shown) return shown.bodies;
+    const played = this.cut ? cutOf(walk) : walk;
     const all = Array.from({ length: this.figures }, (_, n) => this.time - n * LAG).filter(
       (time, n) => !n || time >= 0,
     );
-    return all.map((time) => bodyAt(walk, Math.min(time, walk.frames - 1)));
+    /** @param {number} time */
+    const bodyOf = (time) => bodyAt(played, Math.min(this.cut ? Math.floor(time) : time, walk.frames - 1));
+    return [...all.map(bodyOf), ...(this.pointed?.bodies ?? [])];
   }
 
   draw() {
@@ -404,19 +453,43 @@ export class Page extends Hands {
     const step = Math.max(3, Math.ceil(this.points.length / 700));
     const thin = this.points.filter((_, i) => i % step === 0);
     const here = walk.frames ? nearest(this.line, this.position()) / step : 0;
-    const pale = this.stroke ? 0.3 : 0.95; // beside the line that is drawn now
+    const told = this.story.step > 0 && walk.frames > 0;
+    const pale = this.stroke || told ? 0.3 : 0.95; // beside the line that is drawn now, and what is told
     if (this.rounded > SEEN) scene.band(this.drawn, half * 0.5, ink, () => 0.3, 0.003);
     scene.band(thin, half, line, (i) => (i < here ? 0.35 * pale : pale));
     if (this.stroke) scene.band(this.stroke, half, line, () => 1, 0.009);
-    if (this.ghost) this.drawGhost(this.ghost, half, ink);
-    if (walk.frames) {
-      this.drawTrail(half, ink);
-      this.drawPrints(ink);
-      this.drawSeams(half);
-    }
+    if (told) this.story.draw(half);
+    else this.drawWalk(half, ink);
     scene.draw(seen, look, this.bodies());
     this.ticks += 1;
-    if (this.ticks % 4 === 1) drawSmall(this, this.small);
+    if (this.ticks % 4 === 1 && !told) this.drawMap();
+  }
+
+  /**
+   * The search that is under way, and what the walk leaves on the ground.
+   * @param {number} half
+   * @param {number[]} ink
+   */
+  drawWalk(half, ink) {
+    if (this.ghost) this.drawGhost(this.ghost, half, ink);
+    if (!this.walk.frames) return;
+    this.drawTrail(half, ink);
+    this.drawPrints(ink);
+    this.drawSeams(half);
+  }
+
+  // The map, and the name of the clip that is played.
+  drawMap() {
+    const { walk, about } = this;
+    drawSmall(this, this.small);
+    if (!walk.frames) return;
+    const [at, frame] = edgeAt(walk, Math.floor(this.time));
+    const { start, end, seam, frames } = walk.edges[at];
+    const { clip } = seam && 2 * frame >= frames ? end : start;
+    const name = about.clips[clip].name.replaceAll("_", " ");
+    if (this.now.textContent === name) return;
+    this.now.textContent = name;
+    this.now.style.setProperty("--clip", colourOfClip(clip));
   }
 
   /**
@@ -456,15 +529,7 @@ export class Page extends Hands {
    * @param {number[]} colour
    */
   drawGhost(ghost, half, colour) {
-    /** @type {number[][]} */
-    const points = [];
-    for (let walk = ghost; walk.previous && walk.edge; walk = walk.previous) {
-      const [c, s, z, x] = walk.previous.transform;
-      const { track } = walk.edge;
-      for (let i = track.z.length - 1; i >= 0; i -= 3) {
-        points.push([c * track.z[i] - s * track.x[i] + z, s * track.z[i] + c * track.x[i] + x]);
-      }
-    }
+    const points = trackOfWalk(ghost, 3);
     if (points.length > 1) this.scene.band(points, half * 0.4, colour, () => 0.4, 0.006);
   }
 
@@ -507,8 +572,7 @@ export class Page extends Hands {
   buttons() {
     const { labels, moving, clips } = this.about;
     $("made").textContent =
-      `Its motion is new: pieces of ${clips.length} clips, joined at similar moments, the dots. Tap one!`;
-    $("caption").textContent = `${clips.length} clips, and where the walk is in them`;
+      `Its motion is new: pieces of ${clips.length} clips, joined by seams at similar moments, the dots. Tap one!`;
     moving.forEach((name) => {
       const kind = labels.indexOf(name);
       const button = Object.assign(document.createElement("button"), {
@@ -529,11 +593,16 @@ export class Page extends Hands {
       this.figures = this.figures > 1 ? 1 : PARADE;
       $("parade").setAttribute("aria-pressed", String(this.figures > 1));
     };
+    $("undo").onclick = () => this.undo();
     $("bvh").onclick = () => {
       this.finish();
       download(bvh(this.walk), "walk.bvh");
     };
     $("gif").onclick = () => this.saveGif();
+    $("film").onclick = () => (this.film ? this.endFilm() : this.beginFilm());
+    for (const name of ["bvh", "gif", "film"]) {
+      $(name).addEventListener("click", () => $("save").removeAttribute("open"));
+    }
     $("copy").onclick = () => this.copyLink();
   }
 
@@ -557,8 +626,43 @@ export class Page extends Hands {
     this.time = time;
   }
 
-  async saveGif() {
+  // Record the walk from its beginning while it plays.
+  beginFilm() {
     if (this.saving) return;
+    this.finish();
+    try {
+      this.film = new Film(this.canvas, FILM_FPS);
+    } catch (error) {
+      this.showMessage(error instanceof Error ? error.message : String(error));
+      return;
+    }
+    $("film").textContent = "stop the film";
+    this.shown = null;
+    this.time = 0;
+    this.rest = 0;
+    this.aim(0, true);
+    this.play(true);
+  }
+
+  // Show how much of the walk is recorded, and end the film with the walk.
+  watchFilm() {
+    const last = this.walk.frames - 1;
+    if (!this.walk.frames) return;
+    this.showMessage(`recording: ${Math.min(100, Math.round((100 * this.time) / last))} %`);
+    if (this.walk.done && this.time >= last && this.rest > FILM_END) this.endFilm();
+  }
+
+  async endFilm() {
+    const { film } = this;
+    if (!film) return;
+    this.film = null;
+    $("film").textContent = "film";
+    download(await film.stop(), film.name);
+    this.showMessage(`saved ${film.name}`);
+  }
+
+  async saveGif() {
+    if (this.saving || this.film) return;
     this.finish();
     this.saving = true;
     const { canvas, walk, time } = this;

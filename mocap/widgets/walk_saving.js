@@ -1,4 +1,4 @@
-// A walk as a file: BVH for other programs, GIF for friends.
+// A walk as a file: BVH for other programs, a film or a GIF for friends.
 
 import { poseAt } from "./walk_body.js";
 
@@ -170,6 +170,43 @@ export class Gif {
       [...this.parts, [0x3b]].map((part) => new Uint8Array(part)),
       { type: "image/gif" },
     );
+  }
+}
+
+const FILM_TYPES = ["video/mp4", "video/webm"]; // the first one that the browser writes
+const FILM_RATE = 6_000_000; // bits per second
+const NO_FILM = "This browser records no films: save a GIF.";
+
+// A film of what a canvas shows, from now until it is stopped.
+export class Film {
+  /** @type {Blob[]} */
+  parts = [];
+
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {number} fps
+   */
+  constructor(canvas, fps) {
+    const type = FILM_TYPES.find((other) => window.MediaRecorder?.isTypeSupported(other));
+    if (!type) throw new Error(NO_FILM);
+    this.type = type;
+    const options = { mimeType: type, videoBitsPerSecond: FILM_RATE };
+    this.recorder = new MediaRecorder(canvas.captureStream(fps), options);
+    this.recorder.ondataavailable = ({ data }) => this.parts.push(data);
+    this.recorder.start(1000);
+  }
+
+  get name() {
+    return `walk.${this.type.split("/")[1]}`;
+  }
+
+  /** @returns {Promise<Blob>} */
+  stop() {
+    return new Promise((resolve) => {
+      this.recorder.onstop = () => resolve(new Blob(this.parts, { type: this.type }));
+      this.recorder.stop();
+      for (const track of this.recorder.stream.getTracks()) track.stop();
+    });
   }
 }
 

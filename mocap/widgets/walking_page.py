@@ -43,6 +43,8 @@ WALKING = (
     "scene",
     "saving",
     "small",
+    "steps",
+    "story",
     "hands",
     "page",
 )
@@ -149,13 +151,21 @@ def _picture_tag(address: str) -> str:
     return f'<meta property="og:image" content="{html.escape(address)}">' if address else ""
 
 
-def walk_page(graph: MotionGraph, *, picture: str = "") -> str:
+def _course_words(course: str) -> str:
+    """Return the words that lead from the page to the course, by a link if its address is known."""
+    if course:
+        return f'<a class="go" href="{html.escape(course)}">Notebook 00 of the course</a>'
+    return "Notebook 00 of the course does it in Python: <code>mocap lab</code> opens it."
+
+
+def walk_page(graph: MotionGraph, *, picture: str = "", course: str = "") -> str:
     """Create a page on which a figure walks along drawn lines, through a motion graph without dead ends.
 
     Parameters
     ----------
     graph : a pruned graph. All its clips, at 30 frames per second, are in the page.
     picture : the address of the picture that links to the page show, if there is one.
+    course : the address of the notebook to which the story of the page leads; else its command is named.
 
     Returns
     -------
@@ -167,5 +177,8 @@ def walk_page(graph: MotionGraph, *, picture: str = "") -> str:
     parts = {"ABOUT": script_json(description), "PICTURE": _picture_tag(picture)}
     parts["GRAPH"] = base64.b64encode(compressed).decode()
     parts["SCRIPT"] = joined(*(HERE / f"{part}.js" for part in PARTS))
+    transitions = sum(kind == "transition" for _, _, kind in graph.graph.edges(data="kind"))
+    parts |= {"COUNT": str(len(graph.clips)), "COURSE": _course_words(course)}
+    parts |= {"NODES": f"{len(graph.graph):,}", "EDGES": f"{transitions:,}"}
     page = (HERE / "walk.html").read_text("utf-8")
-    return re.sub("ABOUT|GRAPH|SCRIPT|PICTURE", lambda match: parts[match[0]], page)
+    return re.sub("ABOUT|GRAPH|SCRIPT|PICTURE|COUNT|COURSE|NODES|EDGES", lambda match: parts[match[0]], page)

@@ -403,6 +403,7 @@ def test_it_is_saved_as_motion_and_as_pictures(page, file, tmp_path):
         page.keyboard.press(key)
     page.evaluate("page.finish()")
     with page.expect_download() as given:
+        page.click("#save summary")
         page.click("#bvh")
     given.value.save_as(tmp_path / "walk.bvh")
     motion = mocap.load(tmp_path / "walk.bvh")
@@ -410,12 +411,63 @@ def test_it_is_saved_as_motion_and_as_pictures(page, file, tmp_path):
     assert motion.root_positions[[0, 20, 40]][:, [2, 0]] == pytest.approx(places, abs=1e-3)
     assert len(motion) == page.evaluate("page.walk.frames")
     with page.expect_download() as given:
+        page.click("#save summary")
         page.click("#gif")
     given.value.save_as(tmp_path / "walk.gif")
     film = Image.open(tmp_path / "walk.gif")
     film.seek(film.n_frames - 1)  # all pictures can be read
     assert film.n_frames > 30
     assert len(film.convert("RGB").getcolors(10**6)) > 20
+
+
+@shaded
+def test_a_film_is_recorded_while_the_walk_plays(page, file, tmp_path):
+    page.goto(f"file://{file}")
+    page.wait_for_function("window.page?.walk.frames")
+    page.evaluate("page.set(Array.from({ length: 150 }, (_, i) => [0.01 * i, 0]), { anew: true })")
+    page.evaluate("page.finish()")
+    page.click("#save summary")
+    with page.expect_download() as given:
+        page.click("#film")
+        page.wait_for_function("document.querySelector('#message').textContent.startsWith('recording')")
+        assert not page.evaluate("page.saving")  # it walks on
+        assert page.locator("#film").text_content() == "stop the film"
+    given.value.save_as(tmp_path / "film")
+    assert given.value.suggested_filename in ("walk.mp4", "walk.webm")
+    content = (tmp_path / "film").read_bytes()
+    assert content[4:8] == b"ftyp" or content[:4] == b"\x1aE\xdf\xa3"  # MP4, or WebM
+    assert len(content) > 5000
+    assert page.locator("#message").text_content() == f"saved {given.value.suggested_filename}"
+    assert page.locator("#film").text_content() == "film"
+
+
+def test_a_browser_that_records_no_films_says_so(page, file):
+    page.goto(f"file://{file}?flat")
+    page.wait_for_function("window.page?.walk.frames")
+    page.evaluate("window.MediaRecorder = undefined")
+    page.click("#save summary")
+    page.click("#film")
+    assert page.locator("#message").text_content() == "This browser records no films: save a GIF."
+    assert page.evaluate("page.film") is None
+
+
+def test_a_stroke_is_undone(page, file):
+    page.goto(f"file://{file}?flat")
+    page.wait_for_function("window.page?.walk.frames")
+    lines = [page.evaluate("page.drawn")]
+    assert not page.locator("#undo").is_visible()
+    for end in ((800, 500), (800, 300)):
+        drag(page, (300, 400), (500, 380), end)
+        page.evaluate("page.finish()")
+        lines.append(page.evaluate("page.drawn"))
+    page.click("#undo")
+    assert page.evaluate("page.drawn") == lines[1]
+    page.focus("#stage")
+    page.keyboard.press("Control+z")
+    assert page.evaluate("page.drawn") == lines[0]
+    assert not page.locator("#undo").is_visible()
+    page.keyboard.press("Control+z")  # nothing is left to undo
+    assert page.evaluate("page.drawn") == lines[0]
 
 
 @shaded

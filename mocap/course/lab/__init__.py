@@ -5,13 +5,15 @@ Reading order (notebooks 00 to 19)
  1. `slots`: the place of an exercise, in which a student's function runs, or the package's in its stead
  2. `adopting`: a student's function drives the course from the exercise on; the package's stands in before
  3. `kept_functions`: the file beside the notebooks that keeps what students wrote, with all that it needs
- 4. `own`: a copy of `mocap.plain` made of these functions alone, from clips to a walk along a path
- 5. `questions`: the questions of a notebook, as its file has them, with numbers that the notebook computes
- 6. `asking`: quizzes with hints, and bets: what a reader thought, what came out, and how a page shows both
- 7. `choices`: which two windows are looked at, and what lies around them
- 8. `showing`: the widget, its picture and its sentence, and all that its page needs
- 9. `sensitivity`: d′ of a person, and of a class as one curve, with confidence intervals
-10. `blind_tests`: the test in a notebook or on a page, and its films: with a seam, and controls without one
+ 4. `rewritten`: functions of `mocap.plain` that call the exercises
+ 5. `program`: the text of `mocap.plain` with these functions, which ends `my_graph.py`
+ 6. `own`: this program, run with the student's functions, from clips to a walk along a path
+ 7. `questions`: the questions of a notebook, as its file has them, with numbers that the notebook computes
+ 8. `asking`: quizzes with hints, and bets: what a reader thought, what came out, and how a page shows both
+ 9. `choices`: which two windows are looked at, and what lies around them
+10. `showing`: the widget, its picture and its sentence, and all that its page needs
+11. `sensitivity`: d′ of a person, and of a class as one curve, with confidence intervals
+12. `blind_tests`: the test in a notebook or on a page, and its films: with a seam, and controls without one
 
 References
 ----------

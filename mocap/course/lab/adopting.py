@@ -13,6 +13,7 @@ from typing import Any, cast
 
 from mocap.course.checks import all_checks, nearest, withheld
 from mocap.course.guarded_calls import read_report, write_report_to
+from mocap.course.lab import program
 from mocap.course.lab.kept_functions import is_stub, keep, place, plain_source, read_text, run_sections
 from mocap.course.lab.slots import AsWritten, Slot, whose_run
 from mocap.errors import MocapError
@@ -148,7 +149,7 @@ def _take(slot: Slot, function: Callable[..., Any]) -> bool:
         file = place()
         if file:
             source = plain_source(function, all_checks())  # type: ignore[arg-type]
-            _kernel.text = keep(file, slot.name, slot.check.notebook, source)
+            _kernel.text = keep(file, slot.name, slot.check.notebook, source, program.text())
             slot.kept = True
     except MocapError as error:
         print(f"{slot.name}: adopted until this kernel ends, but not kept. {error}"[:200])

@@ -14,7 +14,8 @@ from mocap.blending.joining import join
 from mocap.body.motion import Motion, require_compatible
 from mocap.body.planar import PlanarTransform
 from mocap.course.lab.adopting import slots, whose
-from mocap.course.lab.own import pages_of, squared_distances
+from mocap.course.lab.own import pages_of
+from mocap.course.lab.program import module
 from mocap.errors import MocapError
 from mocap.graphs.edge_tables import Edge, edge_table
 from mocap.graphs.motion_graph import MotionGraph
@@ -135,7 +136,7 @@ def of_clips(clips: Sequence[Motion], window: int, at: Any) -> Choices:  # noqa:
     sums, inner = slots(*names)
     if sums.yours and window <= min(map(len, clips)):
         a, b = map(pages_of(None, window).windows, (first, second))
-        grid = squared_distances(a, b, window, sums)
+        grid = module({"window_sums": sums}, {"K": window}).distance_grid(a, b) ** 2
     else:
         grid = np.asarray(distance_grid(first, second, window=window), float)
     places = np.array(list(inner(grid, np.inf)) if inner.yours else [], int).reshape(-1, 2)

@@ -25,15 +25,27 @@ HEAD = '''"""My motion graph: what I wrote in the course, and what passed its ch
 
 The notebooks run these functions in place of the package's. Delete one of them, or this file, to start anew.
 By itself it walks along a line, as it stands, right or wrong: python my_graph.py clips/ path.csv -o walk.bvh
+The rest of the program is its last section. Change its constants, or anything else, and run it again.
 """
 '''
 FOOT = """
+
+if __name__ == "__main__":
+    import sys
+
+    from mocap.course.lab import own
+
+    sys.exit(own.run(globals(), __file__))
+"""
+OLD_FOOT = """
 
 if __name__ == "__main__":
     from mocap.course.lab import own
 
     own.main(__file__)
 """
+PROGRAM = "program"  # the name of the last section
+PROGRAM_HEADING = "# ---- program (the rest, which calls the functions above: change what you like) ----\n"
 HEADING = re.compile(r"^(# -+ (\w+)(?: \(.*\))? -+\n)", re.MULTILINE)
 
 
@@ -61,7 +73,8 @@ def split(text: str) -> tuple[str, list[tuple[str, str, str]]]:
     >>> split("import math\n# ---- f (notebook 01) ----\ndef f(): ...\n")
     ('import math\n', [('f', '# ---- f (notebook 01) ----\n', 'def f(): ...\n')])
     """
-    text = text.replace(FOOT, "\n" * FOOT.count("\n"))  # what follows it keeps its line
+    for foot in (FOOT, OLD_FOOT):
+        text = text.replace(foot, "\n" * foot.count("\n"))  # what follows it keeps its line
     head, *rest = HEADING.split(text)
     return head, list(zip(rest[1::3], rest[::3], rest[2::3], strict=True))
 
@@ -85,6 +98,9 @@ def run_sections(file: Path, text: str, names: Mapping[str, Any]) -> tuple[dict[
     problems: list[str] = []
     line = 0
     for name, heading, body in [("", "", head), *sections]:
+        if name == PROGRAM:  # which notebooks do not need
+            line += heading.count("\n") + body.count("\n")
+            continue
         space = {**shared} if name else shared  # a helper of one function does not replace that of another
         space.pop(name, None)
         line += heading.count("\n")
@@ -212,7 +228,7 @@ def is_stub(function: Callable[..., Any]) -> bool:
     return any(isinstance(value, ast.Constant) and value.value is ... for value in returned)
 
 
-def keep(file: Path, name: str, notebook: str, source: str) -> str:
+def keep(file: Path, name: str, notebook: str, source: str, program: str = "") -> str:
     """Write a function into the file, in place of an earlier one of its name, and return the new text.
 
     Parameters
@@ -221,6 +237,7 @@ def keep(file: Path, name: str, notebook: str, source: str) -> str:
     name : the function's.
     notebook : the number of the notebook that asks for it; the functions stand in this order.
     source : from `plain_source`. Its imports stay with it, as another's may have the same names.
+    program : the rest of the program, for a file that does not have it yet.
 
     Raises
     ------
@@ -233,7 +250,9 @@ def keep(file: Path, name: str, notebook: str, source: str) -> str:
         raise MocapError(f"{file}, line {error.lineno}: {error.msg}; correct it, or delete it.") from error
     new = name, f"# ---- {name} (notebook {notebook}) ----\n", f"\n{source}"
     kept = [*(part for part in sections if part[0] != name), new]
-    kept.sort(key=lambda part: part[1].partition("(")[2])  # by notebook
+    if program and all(part[0] != PROGRAM for part in sections):
+        kept.append((PROGRAM, PROGRAM_HEADING, f"\n{program}"))
+    kept.sort(key=lambda part: (part[0] == PROGRAM, part[1].partition("(")[2]))  # by notebook
     start = head.rstrip() + "\n" if head.strip() else HEAD
     parts = [start]
     for _, heading, body in kept:

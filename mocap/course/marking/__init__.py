@@ -11,13 +11,15 @@ Reading order
 3. `notes`: what a notebook uses by which an answer could have been taken over, for the teacher
 4. `plain_data`: answers as JSON, so that nothing in them can run
 5. `student`: the student's side: run cells, call functions
-6. `call_filter`: a program for the kernel that refuses system calls
-7. `walls`: what the kernel keeps from that process
-8. `keeper`: the start of that process, and the end of all that it started
-9. `sealed`: the marker's side: start, ask, stop in time
-10. `rosters`: who the students are
-11. `grades`: points, tables for spreadsheets, Moodle and Canvas, the closing account, and feedback
-12. `marks`: judge each exercise of each notebook
+6. `system_calls`: the system calls that this process may make
+7. `call_filter`: a program for the kernel that refuses the others
+8. `walls`: what the kernel keeps from that process
+9. `bubblewrap`: a third wall, where that is installed
+10. `keeper`: the start of that process, and the end of all that it started
+11. `sealed`: the marker's side: start, ask, stop in time
+12. `rosters`: who the students are
+13. `grades`: points, tables for spreadsheets, Moodle and Canvas, the closing account, and feedback
+14. `marks`: judge each exercise of each notebook
 """
 
 from mocap._shared import faces

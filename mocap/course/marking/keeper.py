@@ -3,9 +3,10 @@
 The marker starts `python -m mocap.course.marking.keeper` once, with a socket as its standard input. The
 keeper imports what notebooks import and never runs a student's code: so a student's process, which is a copy
 of it made by `fork`, starts at once, with the package as it was before the first notebook. For each byte with
-a socket that the marker sends, the keeper starts such a process on that socket; at the next byte, even if
-that is the end because the marker was killed, it ends all, and writes back why it had to stop the process
-before. On Linux it adopts the orphans among its descendants, so that none can leave it.
+a socket that the marker sends, the keeper starts such a process on that socket, in a new home. At the next
+byte, even if that is the end because the marker was killed, it ends all, removes the home, and writes back
+why it had to stop the process before. On Linux it adopts the orphans among its descendants, so that none can
+leave it.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import suppress
@@ -39,10 +41,10 @@ OURS = ("marking.student", "checks.inputs", "diagrams", "lab.own")
 
 def keep(control: socket.socket) -> None:
     """Read which walls to raise and what to hide; write which can be raised; run a process on each socket."""
-    home = Path(os.environ["HOME"])
+    folder = Path(os.environ["HOME"]).parent
     wanted, hidden = json.loads(control.makefile().readline())
     walls.prctl(walls.ADOPT_ORPHANS, 1)
-    forked = {name: walls.fork_behind([name], home, hidden, int) for name in wanted}
+    forked = {name: walls.fork_behind([name], folder, hidden, int) for name in wanted}
     raised = [name for name, child in forked.items() if os.waitpid(child, 0)[1] == 0]
     control.sendall(f"{' '.join(raised)}\n".encode())
     try:
@@ -54,21 +56,35 @@ def keep(control: socket.socket) -> None:
                 import_module(module)
             gc.freeze()
             for channel in channels:
-                # shutil.rmtree cannot delete folders in folders in ...
-                subprocess.run(["rm", "-rf", home], check=False)
-                home.mkdir(exist_ok=True)
-                student = walls.fork_behind(raised, home, hidden, partial(_serve, channel))
+                home = Path(tempfile.mkdtemp(prefix="student-", dir=folder))  # of a name that nobody knows
+                student = walls.fork_behind(raised, home, hidden, partial(_serve, channel, home))
                 os.close(channel)
                 reason = _watch(control, student, home)
                 _kill_all(student)
+                remove(home)
                 control.sendall(f"{reason}\n".encode())
     finally:
-        subprocess.run(["rm", "-rf", home.parent], check=False)
+        remove(folder)
 
 
-def _serve(channel: int) -> None:
+def remove(folder: Path) -> None:
+    """Remove a folder, also with folders in it that may not be listed, or are deeper than Python can go.
+
+    Examples
+    --------
+    >>> remove(Path("nowhere"))
+    """
+    if folder.exists():
+        subprocess.run(["chmod", "-R", "u+rwX", folder], check=False)
+        subprocess.run(["rm", "-rf", folder], check=False)
+
+
+def _serve(channel: int, home: Path) -> None:
     """Hold nothing but the socket, print nowhere, and serve the marker."""
     from mocap.course.marking.student import serve
+
+    os.environ |= dict.fromkeys(("HOME", "TMPDIR"), str(home))
+    tempfile.tempdir = str(home)
 
     standard_streams = (0, 1, 2)
     channel = os.dup2(channel, len(standard_streams))
@@ -76,8 +92,8 @@ def _serve(channel: int) -> None:
     null = os.open(os.devnull, os.O_RDWR)
     for stream in standard_streams:
         os.dup2(null, stream)
-    os.chdir(os.environ["HOME"])
-    sys.path.insert(0, os.environ["HOME"])
+    os.chdir(home)
+    sys.path.insert(0, str(home))
     with os.fdopen(channel, "rb") as requests, os.fdopen(os.dup(channel), "wb") as replies:
         serve(requests, replies)
 

@@ -7,8 +7,9 @@ import hashlib
 import multiprocessing
 import signal
 import sys
+import time
 import warnings
-from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from contextlib import closing
 from functools import partial
@@ -29,7 +30,7 @@ from mocap.course.marking.grades import NO_EXERCISE, NO_NOTEBOOK, NOTHING, UNKNO
 from mocap.course.marking.hand_ins import Collected, Sent, collect, sent_by
 from mocap.course.marking.notes import note
 from mocap.course.marking.plain_data import unpack
-from mocap.course.marking.sealed import Ended, Sealed, protection
+from mocap.course.marking.sealed import Ended, Sealed, guards_files, protection
 from mocap.course.marking.walls import require_sealing
 from mocap.course.notebooks import library, names_of
 from mocap.course.opening import stored
@@ -37,6 +38,7 @@ from mocap.errors import MocapError
 
 SECONDS = 30  # time limit of an exercise
 STARTING = 120  # time limit of the first cell, which imports much
+BUDGET = 360  # seconds of a notebook: all its exercises, and each new start
 MOST_PARTS = 2_000_000  # lists, dictionaries and texts in it
 MOST_CODE = 1 << 20  # letters of code in it
 SAID = 250  # characters of names that are listed
@@ -176,9 +178,9 @@ def _begin(hidden: Sequence[Path]) -> None:
     _students[:] = [Sealed(hidden)]
 
 
-def _fingerprint(walls: Iterable[str]) -> bytes:
+def _fingerprint(walls: Sequence[str]) -> bytes:
     """Compute a hash of the package's files if no wall keeps a notebook from changing them."""
-    if "landlock" in walls:
+    if guards_files(walls):
         return b""
     sys.dont_write_bytecode = True
     files = sorted(file for file in Path(mocap.__file__).parent.rglob("*") if file.is_file())
@@ -251,22 +253,39 @@ def _used_by(name: str, cells: Sequence[Cell]) -> set[str]:
 
 
 def _judge_all(cells: list[Cell], names: list[str], seed: int, student: Sealed) -> dict[str, Verdict]:
-    """Judge exercises in one process, and in a new one after an exercise that ends it."""
+    """Judge exercises in one process, and in a new one after an exercise that ends it.
+
+    All together have the time `BUDGET`, so that no notebook can hold up the marking of a class.
+    """
     judged: dict[str, Verdict] = {}
+    end = time.monotonic() + BUDGET
     while remaining := [name for name in names if name not in judged]:
-        student.renew()
         at_fault = remaining
         try:
-            student.allow(STARTING)
+            _allow(student, STARTING, end)
+            student.renew()
             student.ask("begin", [tuple(cell) for cell in cells])
             for name in remaining:
                 at_fault = [name]
                 _ = all_checks()[name].answers  # the import is not the student's time
-                student.allow(SECONDS)
+                _allow(student, SECONDS, end)
                 judged[name] = _judge(student, name, seed)
         except Ended as ended:
             judged |= {name: Verdict(False, f"{name}: {ended}.") for name in at_fault}
     return judged
+
+
+def _allow(student: Sealed, seconds: float, end: float) -> None:
+    """Set the deadline of the next step, which is at most the end of the notebook's time.
+
+    Raises
+    ------
+    Ended : if that is over.
+    """
+    remaining = end - time.monotonic()
+    if remaining <= 0:
+        raise Ended(f"not tried, as the notebook has used up its {BUDGET} s")
+    student.allow(min(seconds, remaining))
 
 
 def _judge(student: Sealed, name: str, seed: int) -> Verdict:

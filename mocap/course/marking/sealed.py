@@ -13,12 +13,14 @@ import tempfile
 import time
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import mocap
 from mocap.course.checks import ANSWERS
-from mocap.course.marking import walls
+from mocap.course.marking import bubblewrap, walls
+from mocap.course.marking.keeper import remove
 
 REPLY = 1 << 20  # bytes of an answer, of which the course's have some thousands
 # The types of a reply, by the method of `student.Student` that is called.
@@ -26,7 +28,7 @@ REPLIES: dict[str, tuple[type, ...]] = {"begin": (), "prepare": (bool, str)}
 REPLIES["call"] = (object, list, str, str)
 CHUNK = 1 << 16  # bytes that are received at a time
 ANSWERING = 30  # seconds in which the keeper must answer
-WANTED = walls.ALL
+WANTED = (bubblewrap.NAME, *walls.ALL)
 KEPT = ("PATH", "LANG", "LC_ALL", "LC_CTYPE", "LD_LIBRARY_PATH", "PYTHONHOME", "TZ")
 FIXED = {f"{library}_NUM_THREADS": "1" for library in ("OPENBLAS", "OMP", "MKL")}
 FIXED |= {"MPLBACKEND": "Agg", "PYTHONDONTWRITEBYTECODE": "1"}
@@ -49,7 +51,7 @@ class Sealed:
 
     Attributes
     ----------
-    walls : what surrounds them, of `walls.ALL`.
+    walls : what surrounds them, of `WANTED`.
 
     Raises
     ------
@@ -76,29 +78,34 @@ class Sealed:
 
     def _start(self) -> None:
         """Start the keeper, in a folder and with few variables in its environment."""
-        (self.folder / "home").mkdir(parents=True, exist_ok=True)  # a keeper that ends removes them
+        home = self.folder / "keeper"
+        home.mkdir(parents=True, exist_ok=True)  # a keeper that ends removes them
         inherited = filter(None, os.environ.get("PYTHONPATH", "").split(os.pathsep))
         path = [Path(mocap.__file__).parents[1], *(Path(place).resolve() for place in inherited)]
         environment = {name: os.environ[name] for name in KEPT if name in os.environ}
-        environment |= dict.fromkeys(("HOME", "TMPDIR"), str(self.folder / "home"))
+        environment |= dict.fromkeys(("HOME", "TMPDIR"), str(home))
         environment["PYTHONPATH"] = os.pathsep.join(map(str, path))
         environment |= FIXED
-        keeper = [sys.executable, "-m", "mocap.course.marking.keeper"]
+        keeper = [
+            sys.executable,
+            "-P",
+            "-m",
+            "mocap.course.marking.keeper",
+        ]  # -P: the folder is no path of it
+        wraps = bubblewrap.NAME in WANTED
+        in_bubblewrap = bubblewrap.wrapped(keeper, self.folder, self.hidden, environment) if wraps else []
         self.control, theirs = socket.socketpair()
         self.control.settimeout(ANSWERING)
         self.lines = self.control.makefile()
+        null = subprocess.DEVNULL
+        start = partial(subprocess.Popen, stdin=theirs.fileno(), stdout=null, stderr=null)
+        command = in_bubblewrap or keeper
         with theirs:
-            self.process = subprocess.Popen(
-                keeper,
-                stdin=theirs.fileno(),
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-                cwd=self.folder,
-                env=environment,
-                start_new_session=True,
-            )
-        self.control.sendall(f"{json.dumps([WANTED, self.hidden])}\n".encode())
-        self.walls = self._answer().split()
+            self.process = start(command, cwd=self.folder, env=environment, start_new_session=True)
+        wanted = [wall for wall in WANTED if wall in walls.ALL]
+        self.control.sendall(f"{json.dumps([wanted, self.hidden])}\n".encode())
+        outer = [bubblewrap.NAME] if in_bubblewrap else []
+        self.walls = outer + self._answer().split()
 
     def renew(self) -> None:
         """End the process and all that it started, and start another one in a new home."""
@@ -117,6 +124,7 @@ class Sealed:
         self.lines.close()
         self.control.close()
         self.process.wait()
+        remove(self.folder)  # a keeper that did not start has left it
 
     def _end(self) -> str:
         """Let the keeper kill all that the process started; return why it was stopped before, if it was."""
@@ -159,7 +167,7 @@ class Sealed:
                     raise TypeError
             return reply
         except TimeoutError:
-            raise Ended(f"stopped after {self.seconds:g} s") from None
+            raise Ended(f"stopped after {self.seconds:.3g} s") from None
         except OSError:
             raise Ended(self._end() or "ends Python itself") from None
         except (ValueError, TypeError, RecursionError):
@@ -195,6 +203,17 @@ def protection(raised: Sequence[str]) -> str:
     'marking behind landlock, filter: notebooks read Python and write in their home only, without a network'
     """
     files = "READ AND WRITE WHAT YOU CAN (the package is compared after each)"
-    files = "read Python and write in their home only" if "landlock" in raised else files
-    network = "without a" if "filter" in raised else "WITH THE"
+    files = "read Python and write in their home only" if guards_files(raised) else files
+    network = "without a" if {"filter", bubblewrap.NAME} & {*raised} else "WITH THE"
     return f"marking behind {', '.join(raised) or 'no walls'}: notebooks {files}, {network} network"
+
+
+def guards_files(raised: Sequence[str]) -> bool:
+    """Return whether one of the walls keeps notebooks from changing the installed package.
+
+    Examples
+    --------
+    >>> guards_files(["filter"])
+    False
+    """
+    return bool({"landlock", bubblewrap.NAME} & {*raised})

@@ -3,8 +3,11 @@
 Both work without an administrator's rights, in containers as well, and each may be missing on a system:
 
 - `landlock`: it reads Python, programs and libraries, and writes in its home; nothing else can be opened.
-- `filter`: it opens no sockets, sends no signals, mounts nothing, changes nobody's rights to a file, and cuts
-  none that it has not opened for writing, which Landlock before Linux 6.2 does not forbid.
+- `filter`: it makes the system calls of `system_calls` only. It opens no sockets, sends no signals, changes
+  no priorities, leaves no messages, mounts nothing, changes nobody's rights to a file, and cuts none that it
+  has not opened for writing, which Landlock before Linux 6.2 does not forbid.
+
+`bubblewrap` can put a third wall around both.
 """
 
 from __future__ import annotations
@@ -22,7 +25,8 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import mocap
-from mocap.course.marking.call_filter import MACHINES, STEP, call_filter
+from mocap.course.marking.call_filter import STEP, call_filter
+from mocap.course.marking.system_calls import MACHINES
 from mocap.errors import MocapError
 
 ALL = ("landlock", "filter")
@@ -130,9 +134,11 @@ def fork_behind(walls: Sequence[str], home: Path, hidden: Sequence[str], work: C
         for name, limit in LIMITS.items():
             with suppress(OSError, ValueError):  # not every system has all of them
                 resource.setrlimit(getattr(resource, f"RLIMIT_{name}"), (limit, limit))
+        needs_filter = "filter" in walls
         if "landlock" in walls:
-            _lock(home, readable(hidden), listable(hidden))
-        if "filter" in walls:
+            version = _lock(home, readable(hidden), listable(hidden))
+            needs_filter = needs_filter or version < TRUNCATE_SINCE
+        if needs_filter:
             _filter()
         work()
         status = 0
@@ -156,8 +162,10 @@ def _call(name: str, *arguments: int | bytes | None) -> int:
     return result
 
 
-def _lock(home: Path, places: Iterable[Path], listed: Iterable[Path]) -> None:
+def _lock(home: Path, places: Iterable[Path], listed: Iterable[Path]) -> int:
     """Open only these places for reading, and the home for writing; call no server, signal nobody outside.
+
+    Before Linux 6.2 Landlock keeps no file from being cut, which needs the filter.
 
     Parameters
     ----------
@@ -165,13 +173,15 @@ def _lock(home: Path, places: Iterable[Path], listed: Iterable[Path]) -> None:
     places : files and folders to read.
     listed : folders whose names may be listed, in which only some files may be read.
 
+    Returns
+    -------
+    The version of Landlock.
+
     Raises
     ------
-    OSError : where there is no Landlock, or one before Linux 6.2, but no filter to keep files from being cut.
+    OSError : where there is no Landlock.
     """
     version = _call("syscall", RULESET, None, 0, ASK_VERSION)
-    if version < TRUNCATE_SINCE:
-        _filter()
     rights = sum(right for since, right in RIGHTS_SINCE.items() if since <= version)
     handled = [rights]  # `struct landlock_ruleset_attr`: all that is forbidden where no rule allows it
     if version >= TCP_SINCE:
@@ -184,10 +194,11 @@ def _lock(home: Path, places: Iterable[Path], listed: Iterable[Path]) -> None:
     allowed |= dict.fromkeys(map(Path, DEVICES), USE)
     allowed[home] = rights & ~(MAKE_CHARACTER_DEVICE | MAKE_BLOCK_DEVICE)
     for place, right in allowed.items():
-        with suppress(FileNotFoundError):
+        with suppress(FileNotFoundError, PermissionError):  # what one cannot open needs no rule
             _allow(rules, place, rights & right)
     _call("syscall", RESTRICT, rules, 0)
     os.close(rules)
+    return version
 
 
 def _allow(rules: int, place: Path, rights: int) -> None:

@@ -134,8 +134,8 @@ FAILS = "my_graph.py: hamilton does not pass its check any more, so the package'
     [
         (b"- a[1:]", b"+ a[1:]", FAILS, False),
         (
-            b"main(__file__)\n",
-            b"main(__file__)\n" + UNKNOWN,
+            b"__file__))\n",
+            b"__file__))\n" + UNKNOWN,
             "the course has no exercise 'hmilton'; it is not used.\n",
             True,
         ),

@@ -1,6 +1,8 @@
 """A motion graph of one's own: with the package's functions it is the package's, and with students', too."""
 
+import ast
 import copy
+import runpy
 import subprocess
 import sys
 from itertools import pairwise
@@ -15,14 +17,14 @@ from mocap import body, datasets, graphs, matching, synthesis
 from mocap.blending.weights import cubic_weights
 from mocap.body import rotations
 from mocap.course import checks, lab
-from mocap.course.lab import own
+from mocap.course.lab import kept_functions, own
 from mocap.course.lab.adopting import NAMES
-from mocap.course.lab.own import pages_of, squared_distances
+from mocap.course.lab.own import pages_of
 from tests.course.lab.conftest import new_kernel
 from tests.course.lab.students import solutions, written, wrong
 from tests.refusals import refused
 
-WINDOW, BELOW = own.WINDOW, own.BELOW
+WINDOW, BELOW = 10, 0.05
 CURVE = body.s_curve(2).points
 PATH = body.arcs((0, 0), heading=0.0, pieces=[(2.0, 1.0), (2.0, -1.0)])
 
@@ -65,11 +67,12 @@ def theirs(clips, graph):
 
 
 def test_the_grid_is_the_packages_wherever_the_clips_lie(clips, by):
-    points = [pages_of(by, WINDOW).windows(clip) for clip in clips]
+    pages = pages_of(by, WINDOW)
+    points = [pages.windows(clip) for clip in clips]
     theirs = matching.distance_grid(*clips, window=WINDOW)
-    assert np.allclose(squared_distances(*points, WINDOW, by.window_sums), theirs, atol=1e-12)
+    assert np.allclose(pages.distance_grid(*points) ** 2, theirs, atol=1e-12)
     moved = [clip + np.array([300.0, 0, -200.0]) for clip in points]
-    assert np.allclose(squared_distances(*moved, WINDOW, by.window_sums), theirs, atol=1e-9)
+    assert np.allclose(pages.distance_grid(*moved) ** 2, theirs, atol=1e-9)
 
 
 def test_nodes_edges_and_transforms_are_the_packages(graph, theirs):
@@ -180,7 +183,9 @@ def test_what_is_solved_runs_and_the_package_stands_in_for_the_rest(
     assert (": the package's.\n" in said) == (len(solved) < len(NAMES))
     assert np.allclose(walk.root_positions, stand_in.root_positions, atol=1e-9)
     if solved == NAMES:
-        assert 120 <= sum(bool(line.strip()) for line in fresh.read_text().splitlines()) <= 250
+        written_by_me, rest = fresh.read_text().split("# ---- program (")
+        assert 120 <= sum(bool(line.strip()) for line in written_by_me.splitlines()) <= 250
+        assert sum(bool(line.strip()) for line in rest.splitlines()) <= 350
         mocap.save(walk, tmp_path / "mine.bvh")
         assert len(mocap.load(tmp_path / "mine.bvh")) == len(walk)
 
@@ -217,7 +222,7 @@ def test_the_kept_file_walks_by_itself(capsys, fresh, tmp_path):
     lab.mine(written("look_ahead"))
     lab.mine(written("quintic"))
     text = fresh.read_text()
-    assert text.endswith("own.main(__file__)\n") and text.count("__main__") == 1
+    assert text.endswith("own.run(globals(), __file__))\n") and text.count("__main__") == 1
     clips = tmp_path / "clips"
     clips.mkdir()
     for name in ("walk_circle", "walk_curve_1"):
@@ -251,7 +256,9 @@ def walk_of(capsys, fresh, tmp_path, monkeypatch):
         fresh.write_text(text)
         new_kernel()
         capsys.readouterr()
-        return own.main("my_graph.py"), capsys.readouterr()
+        with pytest.raises(SystemExit) as ended:
+            runpy.run_path("my_graph.py", run_name="__main__")
+        return ended.value.code, capsys.readouterr()
 
     return walk
 
@@ -283,8 +290,62 @@ def test_functions_that_do_not_fit_together_end_in_a_sentence(walk_of, fresh):
     text = fresh.read_text().replace("return order[np.sort(first)[:width]]", "return [10**6]")
     status, said = walk_of(text)
     assert status == 2 and not Path("mine.bvh").exists()
-    assert said.err.startswith("my_graph.py: its functions do not fit together. IndexError")
+    line = 1 + text[: text.index("return [walks[number]")].count("\n")
+    assert said.err.startswith(f"my_graph.py, line {line}, in `best_of`: IndexError")
     assert len(said.err) <= 201
+
+
+@pytest.mark.sweep
+def test_constants_of_the_kept_file_can_be_changed_and_it_imports_no_search(walk_of, fresh):
+    lab.mine(written("survivors"))
+    text = fresh.read_text()
+    imported = {
+        alias.name
+        for node in ast.walk(ast.parse(text))
+        if isinstance(node, ast.Import | ast.ImportFrom)
+        for alias in node.names
+    }
+    assert not imported & {"Search", "plain", "program", "follow_path", "pages_of"}
+    assert "class Search:" in text and "def layers(self):" in text
+    status, _ = walk_of(text)
+    checked = mocap.load("mine.bvh")
+    for constant in ("BEAM_WIDTH = 150", "SEAM = 0.15"):
+        assert text.count(constant) == 1
+        name, _, _ = constant.partition(" ")
+        status, said = walk_of(text.replace(constant, f"{name} = 3"))
+        assert status == 0, said.err
+        assert _differs(mocap.load("mine.bvh"), checked)
+
+
+def test_a_file_of_an_earlier_version_still_walks_and_gets_the_rest_when_it_changes(fresh):
+    lab.mine(written("look_ahead"))
+    rest = fresh.read_text().index("# ---- program (")
+    fresh.write_text(fresh.read_text()[:rest].rstrip() + kept_functions.OLD_FOOT)
+    new_kernel()
+    assert lab.mine("look_ahead").yours
+    lab.mine(written("survivors"))
+    text = fresh.read_text()
+    assert text.count("__main__") == 1 and text.count("class Search:") == 1
+    assert text.index("def survivors") < text.index("class Search:")
+
+
+def test_a_change_of_the_program_section_is_kept_when_another_function_passes(fresh):
+    lab.mine(written("look_ahead"))
+    fresh.write_text(fresh.read_text().replace("BEAM_WIDTH = 150", "BEAM_WIDTH = 3"))
+    lab.mine(written("survivors"))
+    assert "BEAM_WIDTH = 3" in fresh.read_text() and "BEAM_WIDTH = 150" not in fresh.read_text()
+
+
+def test_variations_of_a_walk_take_constants_and_functions_of_the_program(circle, by):
+    graph = own.OwnGraph(circle, WINDOW, BELOW, by)
+    walk = graph.follow(CURVE)
+    assert graph.varied().follow(CURVE) == walk
+    dear = graph.varied(SEAM=5.0).follow(CURVE)
+    seams = [sum(graph.graph.edges[edge]["kind"] == "transition" for edge in w[0]) for w in (walk, dear)]
+    assert seams[1] < seams[0]
+    cut = graph.varied(quintic=np.zeros).play(walk)
+    assert _differs(cut, graph.play(walk))
+    refused("no constant or exercise 'BEAM'", graph.varied, BEAM=3)
 
 
 def _differs(walk, other):

@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 import mocap
+from mocap.course.checks import all_checks
 from mocap.course.marking import mark, marks, walls
 from tests.course.marking.students import (
     HONEST,
@@ -212,6 +213,19 @@ def test_an_endless_first_cell_is_said_of_each_exercise(tmp_path, monkeypatch):
     hand_in([("", "while True: pass"), *HONEST[1:]], tmp_path / "ada" / "00.ipynb")
     (found, _) = mark(tmp_path)
     assert [one.said for one in found] == [f"✗ {name}: stopped after 2 s." for name in EXERCISES]
+
+
+def test_a_notebook_has_a_budget_of_time_for_all_that_it_holds_up(tmp_path, monkeypatch):
+    """Each of eight exercises ends Python, and each new start takes a second."""
+    monkeypatch.setattr(marks, "BUDGET", 4)
+    names = [name for name in all_checks() if name not in EXERCISES][:8]
+    ends = [(f"exercise:{name}", f"import os\n{name} = 1\nos._exit(0)") for name in names]
+    hand_in([("", f"import time\ntime.sleep(1)\n{START[1]}"), *ends], tmp_path / "ada" / "x.ipynb")
+    hand_in(HONEST, tmp_path / "zoe" / "x.ipynb")
+    said, zoe = ([one.said for one in some if one.exercise] for some in list(mark(tmp_path))[:2])
+    late = [one for one in said if one.endswith("not tried, as the notebook has used up its 4 s.")]
+    assert len(said) == 8 and 3 <= len(late) < 8, said
+    assert said[0].endswith("ends Python itself.") and zoe[0].startswith("✓")
 
 
 def test_no_answer_stops_the_marker(tmp_path):

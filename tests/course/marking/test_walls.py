@@ -1,9 +1,13 @@
 """What each wall around a student's process keeps it from, and what it leaves alone."""
 
 import ctypes
+import errno
+import fcntl
 import os
 import platform
+import signal
 import socket
+import struct
 import sys
 from contextlib import suppress
 from functools import cache
@@ -16,6 +20,7 @@ from mocap.course.marking.sealed import protection
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="only Linux has these walls")
 OURS = os.getpid()
+FIOSETOWN = 0x8901  # <asm-generic/sockios.h>
 
 
 def succeeds(raised, home, hidden, work):
@@ -53,13 +58,16 @@ def room(monkeypatch):
 
 
 @pytest.fixture
-def place(tmp_path):
+def place(tmp_path, monkeypatch):
     for name in ("home", "hidden"):
         (tmp_path / name).mkdir()
     (tmp_path / "hidden" / "file").write_text("1")
     (tmp_path / "file").write_text("1")
     (tmp_path / "alone").write_text("1")
-    return tmp_path
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as server:
+        monkeypatch.chdir(tmp_path)  # a socket's path has 107 characters
+        server.bind("server")
+        yield tmp_path
 
 
 def attempts(place):
@@ -88,13 +96,51 @@ def attempts(place):
         "lock": (lambda: changed(file, lambda: file.chmod(0o600)), "filter"),
         "age": (lambda: changed(file, lambda: os.utime(file, (1, 1))), "filter"),
         "read in memory": (lambda: os.memfd_create("a"), "filter"),
+        "leave a message": (lambda: left("msgget", "msgctl", 0o1600), "filter"),
+        "leave a semaphore": (lambda: left("semget", "semctl", 1, 0o1600), "filter"),
+        "leave shared memory": (lambda: left("shmget", "shmctl", 64, 0o1600), "filter"),
+        "slow another": (lambda: os.setpriority(os.PRIO_PROCESS, OURS, 19), "filter"),
+        "slow itself": (lambda: os.nice(1), "filter"),
+        "bind another": (lambda: os.sched_setaffinity(OURS, os.sched_getaffinity(0)), "filter"),
+        "set a scheduler": (lambda: library("sched_setscheduler", OURS, 0, bytes(8)), "filter"),
+        "set a file's owner": (lambda: fcntl.fcntl(os.pipe()[0], fcntl.F_SETOWN, OURS), "filter"),
+        "choose its signal": (lambda: fcntl.fcntl(os.pipe()[0], fcntl.F_SETSIG, signal.SIGKILL), "filter"),
+        "set a socket's owner": (lambda: fcntl.ioctl(pair(), FIOSETOWN, struct.pack("i", OURS)), "filter"),
+        "lock a file": (lambda: fcntl.flock(os.open("/etc/passwd", 0), fcntl.LOCK_SH), "filter"),
+        "lock a part": (lambda: fcntl.lockf(os.open("/etc/passwd", 0), fcntl.LOCK_SH), "filter"),
+        "lease a file": (lambda: fcntl.fcntl(own(place), fcntl.F_SETLEASE, fcntl.F_RDLCK), "filter"),
+        "send to a socket's file": (lambda: pair(socket.SOCK_DGRAM).sendto(b"a", "server"), "filter"),
+        "hold another": (lambda: os.pidfd_open(OURS), "filter"),
+        "outlive the keeper": (lambda: walls.prctl(walls.DIE_WITH_PARENT, 0), "filter"),
+        "adopt orphans": (lambda: walls.prctl(walls.ADOPT_ORPHANS, 1), "filter"),
+        "watch a folder": (lambda: library("inotify_init"), "filter"),
     }
+
+
+def left(get, control, *arguments):
+    """Make a queue, a set of semaphores or memory that outlives its process, and remove it again."""
+    number = ctypes.CDLL(None)[get](0, *arguments)
+    if number < 0:
+        raise OSError(get)
+    place_of_command = (0, 0) if get == "semget" else (0,)
+    ctypes.CDLL(None)[control](number, *place_of_command[1:], 0, None)  # IPC_RMID
+
+
+def pair(kind=socket.SOCK_STREAM):
+    return socket.socketpair(socket.AF_UNIX, kind)[0]
+
+
+def own(place):
+    return os.open(place / "home" / "own", os.O_RDONLY | os.O_CREAT)
 
 
 DEPENDS = {
     ("landlock", "signal"): "Linux: from 6.12 on it is forbidden",
     ("filter", "read another's memory"): "who asks: root's it may not",
 }
+if not hasattr(os, "geteuid") or os.geteuid() == 0:
+    names = ("slow another", "bind another", "set a scheduler")
+    DEPENDS |= {("landlock", name): "who asks: root's it may not" for name in names}
 PORT = 0
 NAMES = attempts(Path()).keys()
 
@@ -123,8 +169,8 @@ def version(request, monkeypatch):
         monkeypatch.setattr(walls, "_call", lambda *given: request.param if given == asked else call(*given))
 
 
-@pytest.mark.parametrize("version", [1, 2], indirect=True)
-def test_before_linux_6_2_landlock_forbids_as_much_with_the_filter(version, place):
+@pytest.mark.parametrize("version", [1, 2, 3, 4, 5, 6], indirect=True)
+def test_with_each_version_of_landlock_both_walls_forbid_all(version, place):
     require("landlock"), require("filter")
 
     def attempt_all():
@@ -134,7 +180,28 @@ def test_before_linux_6_2_landlock_forbids_as_much_with_the_filter(version, plac
                 os.write(2, f"{name} succeeds".encode())
                 os._exit(1)
 
-    assert succeeds(["landlock"], place / "home", place / "hidden", attempt_all)
+    assert succeeds(walls.ALL, place / "home", place / "hidden", attempt_all)
+
+
+@pytest.mark.parametrize("version", [1, 2], indirect=True)
+def test_before_linux_6_2_landlock_raises_the_filter_too(version, place):
+    require("landlock"), require("filter")
+    file = place / "file"
+    assert not succeeds(["landlock"], place / "home", place / "hidden", lambda: os.truncate(file, 0))
+
+
+@pytest.mark.parametrize("flags", [0x10000000, 0x20000000, 0x40000000, 0x8000000, 0x20000, 0x8000])
+def test_no_child_gets_a_namespace_or_another_parent(flags, place):
+    require("filter")
+    clone = {"x86_64": 56, "aarch64": 220}[platform.machine()]
+
+    def work():
+        child = ctypes.CDLL(None, use_errno=True).syscall(clone, flags | signal.SIGCHLD, 0, 0, 0, 0)
+        if child == 0:
+            os._exit(0)
+        assert child == -1 and ctypes.get_errno() == errno.ENOSYS
+
+    assert succeeds(["filter"], place / "home", place / "hidden", work)
 
 
 @pytest.mark.parametrize(
@@ -171,6 +238,7 @@ def test_where_a_wall_cannot_be_raised_nothing_runs(module, name, given, wanted,
     ("raised", "says"),
     [
         (walls.ALL, "read Python and write in their home only, without a network"),
+        (("bubblewrap", "filter"), "read Python and write in their home only, without a network"),
         (("filter",), "READ AND WRITE WHAT YOU CAN (the package is compared after each), without a network"),
         ((), "behind no walls: notebooks READ AND WRITE WHAT YOU CAN"),
     ],
