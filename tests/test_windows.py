@@ -98,7 +98,7 @@ WORKS = {
     "data list": "--kind walk",
     "data sets": "",
     "view": "a.bvh -o a.html",
-    "course handout": "-o handout",
+    "course handout": "-o handout --wheel",
     "course site": "-o site",
     "course slides": "-o slides",
     "course film": f"{ROOT / 'notebooks' / '06-pruning.ipynb'} --still -o pruning.mp4",

@@ -6,6 +6,7 @@ Strides of the clips, as a space by their turn, and an edge from this space to i
 - Space: the range of turns that it reaches. Missed: the largest error of a turn that is asked for.
 - Edge. Good: the percentage of targets that are in a box, on average. Bad: the percentage of fresh samples
   whose box holds a bad target. Cost: the mean RMS distance of the transitions in the boxes.
+- Fitting: the range of turns of strides fitted to the clips, and the T_GOOD that their edge needs.
 - Changes from walking to jogging, of the bundled clips. Examples: how many there are. Slide: the mean foot
   sliding distance of the changes.
 """
@@ -17,7 +18,14 @@ import numpy as np
 from _trials import BUNDLED_WALKS, CAPTURED_WALKS, Clips, Collection, Row, Study, Trial
 
 from mocap.methods.match_webs import weights_for
-from mocap.methods.parametric_graphs import build_edge, cut_strides, make_space, measure_mixes, tuned
+from mocap.methods.parametric_graphs import (
+    build_edge,
+    cut_strides,
+    fit_strides,
+    make_space,
+    measure_mixes,
+    tuned,
+)
 from mocap.methods.parametric_graphs.examples import Examples
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
 from mocap.methods.parametric_graphs.stride_changes import changing_strides
@@ -81,6 +89,14 @@ def edges(clips: Clips) -> Row:
     return row | {"cost, cm": 100 * float(cost[inside].mean())}
 
 
+def fitting(clips: Clips) -> Row:
+    """Fit a graph of strides."""
+    graph = fit_strides(list(clips), feet=("lrl",))
+    space = graph.nodes["lrl"]["space"]
+    needed = graph.edges["lrl", "lrl"]["edge"].smallest_good
+    return {"range, °": float(np.degrees(space.high - space.low)[0]), "T_GOOD, cm": 100 * needed}
+
+
 def changes(clips: Clips) -> Row:
     """Change from walking to jogging."""
     jogs = cut_strides(JOG.load() or (), label="jog")
@@ -107,6 +123,12 @@ TRIALS = {
     "bad": Trial(edges, (2.0, 1.0, 1.2)),
     "sampling": Trial(edges, ((10, 100), (25, 400), (80, 1500))),
     "distance_from_bad": Trial(edges, (0.05, 0.0, 0.02)),
+    "worst": Trial(fitting, (1.0, 2.0)),
+    "pose_change": Trial(fitting, (1 / 30, 1 / 10)),
+    "beyond_worst": Trial(fitting, (1.0, 1.5)),
+    "most_range": Trial(fitting, (0.0, 1.0)),
+    "fitting": Trial(fitting, ((15, 60), (100, 400))),
+    "turn_width": Trial(fitting, (np.radians(7), np.radians(28))),
     "change_from": Trial(changes, (0.45, 0.0, 0.3)),
     "change_to": Trial(changes, (0.55, 0.7, 1.0)),
     "step_phases": Trial(changes, ((0.3, 0.7), (0.0, 1.0), (0.15, 0.85))),
@@ -115,6 +137,14 @@ TRIALS = {
     "change_examples": Trial(changes, (20, 200)),
 }
 FIXED = {
+    "good": "the threshold of motion graphs: larger seams show",
+    "widest_turn": "a stride that turns further is a turn on the spot; users set `limit`",
+    "step_share": "a step turns by half of what a stride does, or a little more",
+    "speed_width": "a third of the difference between a slow and a brisk walk, or less",
+    "turns_from": "examples that vary less than their Gaussian is wide are alike",
+    "speeds_from": "examples that vary less than their Gaussian is wide are alike",
+    "least_range": "a character of which less is left hardly obeys",
+    "told_range": "a tenth of a range is not missed",
     "position_rounds": "an iteration that ends by itself; `settled` says when",
     "settled": "far below the centimetre by which a hand may miss its target",
 }

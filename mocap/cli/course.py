@@ -14,9 +14,10 @@ from mocap.cli.option_types import number
 from mocap.cli.stages import bar
 from mocap.cli.typed_commands import Group
 from mocap.course import marking
-from mocap.course.handout import hand_out
+from mocap.course.handout import WHEEL, hand_out
 from mocap.course.notebooks import run as run_notebook
 from mocap.course.opening import build_lite, open_course, stored
+from mocap.errors import MocapError
 
 Points = Annotated[Path | None, "a .toml file of lines EXERCISE = POINTS (default: 1 each)"]
 ALL_BEHIND = Parameter(consume_multiple=True, allow_leading_hyphen=True, show=False)  # even with hyphens
@@ -25,25 +26,39 @@ Moving = Annotated[bool, "run the notebooks, which takes minutes, and record the
 
 
 def handout(
-    notebooks: Sequence[Path] = (), *, out: Path = HANDOUT, nbgrader: bool = False, points: Points = None
+    notebooks: Sequence[Path] = (),
+    *,
+    out: Path = HANDOUT,
+    wheel: bool = False,
+    from_: Annotated[str, "address from which pip installs the package, such as git+https://HOST/mocap"] = "",
+    nbgrader: bool = False,
+    points: Points = None,
 ) -> None:
     """Copy the notebooks without their solutions.
 
     Hints and outputs are also removed. The files that JupyterHub, Binder and Colab need to run the notebooks
-    are added.
+    are added. The first cell of each copy and requirements.txt install the package: with --wheel from a file
+    beside the notebooks, with --from from an address, and otherwise by its name. An address and the name are
+    tried on this machine, and refused if pip cannot install them.
 
     Parameters
     ----------
     notebooks : notebooks to copy (default: the whole course).
     out : folder to write to.
+    wheel : put the package into the folder, without solutions and answers, as the file to install it from.
     nbgrader : write a course folder for nbgrader, in which solutions, checks and points are marked.
 
     Notes
     -----
-    Example: mocap course handout notebooks/02-matching.ipynb --nbgrader -o my-course
+    Example: mocap course handout notebooks/02-matching.ipynb --wheel -o handout
     """
     worth = marking.grades.read_points(points)
-    print(f"wrote {len(hand_out(notebooks, out, worth, nbgrader=nbgrader))} notebooks to {out}")
+    if wheel and from_:
+        raise MocapError(
+            "--wheel puts the package into the folder, --from names an address: give one of them."
+        )
+    origin = WHEEL if wheel else from_
+    print(f"wrote {len(hand_out(notebooks, out, origin, worth, nbgrader=nbgrader))} notebooks to {out}")
 
 
 def site(*, out: Path = Path("mocap-site"), moving: Moving = False) -> None:

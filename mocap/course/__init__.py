@@ -17,16 +17,17 @@ Reading order
 8. `seam_trials`: walks by a matrix, and blends of matches drawn at random, measured
 9. `marked_values`: numbers in prose, and the expressions that compute them
 10. `notebooks`: read a notebook, find its cells by their tags and the names that they use, run it
-11. `handout`: copies without solutions
-12. `formulas`: formulas as MathML
-13. `recording`: positions of an experiment, as pictures for pages without Python
-14. `site`: the course as HTML pages, beside the reference pages of the package
-15. `conf`: how Sphinx makes these pages
-16. `opening`: the course in JupyterLab, and in JupyterLite
-17. `diagrams`: ideas drawn step by step
-18. `lab`: what students wrote is used, and what they thought is kept
-19. `marking`: marks for notebooks handed in, whose code runs sealed
-20. `teaching`: slides and films that are made from the notebooks
+11. `opening`: the course in JupyterLab, and in JupyterLite
+12. `student_wheel`: the package as a file for students, and the requirement that installs it
+13. `handout`: copies without solutions
+14. `formulas`: formulas as MathML
+15. `recording`: positions of an experiment, as pictures for pages without Python
+16. `site`: the course as HTML pages, beside the reference pages of the package
+17. `conf`: how Sphinx makes these pages
+18. `diagrams`: ideas drawn step by step
+19. `lab`: what students wrote is used, and what they thought is kept
+20. `marking`: marks for notebooks handed in, whose code runs sealed
+21. `teaching`: slides and films that are made from the notebooks
 
 References
 ----------

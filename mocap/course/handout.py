@@ -8,10 +8,11 @@ from difflib import SequenceMatcher
 from pathlib import Path
 from typing import Any
 
-from mocap._shared.atomic import make_folder, write_file
+from mocap._shared.atomic import make_folder, require_folder, write_file
 from mocap.course.notebooks import library, notebooks_in, read, solution, tagged
 from mocap.course.opening import stored
-from mocap.errors import MocapError, requirement
+from mocap.course.student_wheel import EXTRA, requirement_from, students_wheel
+from mocap.errors import MocapError
 
 PAGES = ("GLOSSARY.md", "FORMULAS.md")  # the README is for teachers
 TELLING = re.compile(r"checks\.|lab\.(bets?|quiz)\(")  # how cells begin whose outputs hold hints or outcomes
@@ -26,18 +27,29 @@ c.Execute.timeout = 120
 """
 
 
+WHEEL = "wheel"
+"""The origin of the package if it is put beside the notebooks."""
+
+
 def hand_out(
-    notebooks: Sequence[Path], out: Path, points: Mapping[str, float] | None = None, *, nbgrader: bool = False
+    notebooks: Sequence[Path],
+    out: Path,
+    origin: str = "",
+    points: Mapping[str, float] | None = None,
+    *,
+    nbgrader: bool = False,
 ) -> list[Path]:
     """Copy notebooks without their solutions, and with a first cell that installs the package.
 
-    What runs them finds beside them what it asks for: a hub and Binder a `requirements.txt`, Binder the
-    version of Python, too. Colab runs the first cell.
+    Beside them are the files from which a hub and Binder learn what to install, and Binder the version of
+    Python. Colab runs the first cell.
 
     Parameters
     ----------
     notebooks : files; by default those of the course.
     out : the folder for the copies; no file in it is replaced, as it may be a student's work.
+    origin : from where the first cell installs the package: `WHEEL` puts it beside the notebooks, an address
+        is one for pip, and "" is its name in pip's index. An address and the name are tried first.
     points : of exercises, by their names, for nbgrader; 1 for those that are not named.
     nbgrader : make the folder of a course for nbgrader instead, with the solutions marked. It has an
         assignment for each notebook, and after each check a cell that gives its points.
@@ -48,52 +60,67 @@ def hand_out(
 
     Raises
     ------
-    MocapError : if there are no notebooks, or a copy would replace a file.
+    MocapError : if there are no notebooks, a copy would replace a file, or the package cannot be installed
+        from its origin.
 
     Examples
     --------
-    >>> hand_out([Path("nowhere.ipynb")], Path("out"))
+    >>> hand_out([Path("nowhere.ipynb")], Path("out"), WHEEL)
     Traceback (most recent call last):
     mocap.errors.MocapError: nowhere.ipynb: No such file or directory.
     """
-    course = stored()
-    need = requirement("notebooks")
+    shown = [(file, read(file)) for file in notebooks or notebooks_in(stored())]
+    require_folder(out)
+    need, extras = _installed_from(origin)
     copies = []
-    files: dict[Path, str] = {}  # what is to be written, and where
-    for file in notebooks or notebooks_in(course):
+    files: dict[Path, str | bytes] = {}  # what is to be written, and where
+    for file, notebook in shown:
         folder = out / "source" / file.stem if nbgrader else out
-        files[folder / file.name] = _without_solutions(file, need, points or {}, nbgrader=nbgrader)
+        solutions = {solved: solution(cell) for solved, cell in tagged(notebook, "solution")}
+        copied = _for_students(notebook)
+        if nbgrader:
+            _prepare(copied, solutions, points or {})
+        copied.cells.insert(0, library().v4.new_code_cell(INSTALL.format(need), id="install"))
+        files[folder / file.name] = _text(copied)
+        files |= {folder / name: content for name, content in extras.items()}
         copies.append(folder / file.name)
-        for page in PAGES:
-            files[folder / page] = (course / page).read_text("utf-8")
-        files[folder / "requirements.txt"] = f"{need}\n"
-        files[folder / "runtime.txt"] = "python-3.11\n"
     if nbgrader:
         files[out / "nbgrader_config.py"] = CONFIG
     for path in files:
         if path.exists():
             raise MocapError(f"{path} exists already; choose another folder.")
-    for path, text in files.items():
+    for path, content in files.items():
         make_folder(path.parent)
-        write_file(path, text)
+        write_file(path, content)
     return copies
 
 
-def _without_solutions(file: Path, need: str, points: Mapping[str, float], *, nbgrader: bool) -> str:
-    """Return a notebook for students: no solutions, no outputs that tell them, and a cell that installs."""
-    notebook = read(file)
-    solutions = list(tagged(notebook, "solution"))
-    cells_with_solutions = [cell for _, cell in solutions]
+def _installed_from(origin: str) -> tuple[str, dict[str, str | bytes]]:
+    """Return the requirement that installs the package, and the files for each folder of notebooks."""
+    extras: dict[str, str | bytes] = {page: (stored() / page).read_text("utf-8") for page in PAGES}
+    if origin == WHEEL:
+        wheel, packed = students_wheel(lambda file: _text(_for_students(read(file))))
+        extras[wheel] = packed
+        need = f"./{wheel}[{EXTRA}]"
+    else:
+        need = requirement_from(origin)
+    return need, extras | {"requirements.txt": f"{need}\n", "runtime.txt": "python-3.11\n"}
+
+
+def _for_students(notebook: Any) -> Any:  # noqa: ANN401
+    """Remove the solutions from a notebook, and the outputs that tell them."""
+    cells_with_solutions = [cell for _, cell in tagged(notebook, "solution")]
     notebook.cells = [cell for cell in notebook.cells if cell not in cells_with_solutions]
     for cell in notebook.cells:
         if cell.cell_type == "code" and TELLING.match(cell.source):
             cell.outputs = []
             cell.execution_count = None
-    if nbgrader:
-        _prepare(notebook, {name: solution(cell) for name, cell in solutions}, points)
-    nbformat = library()
-    notebook.cells.insert(0, nbformat.v4.new_code_cell(INSTALL.format(need), id="install"))
-    return str(nbformat.writes(notebook)) + "\n"
+    return notebook
+
+
+def _text(notebook: Any) -> str:  # noqa: ANN401
+    """Return the text of a notebook's file."""
+    return str(library().writes(notebook)) + "\n"
 
 
 def _prepare(notebook: Any, solutions: Mapping[str, str], points: Mapping[str, float]) -> None:  # noqa: ANN401

@@ -1,6 +1,8 @@
 from .examples import Examples as Examples
 from .examples import cut_actions as cut_actions
 from .examples import mixed_trajectory as mixed_trajectory
+from .fitted_graphs import fit_parametric as fit_parametric
+from .fitted_graphs import fit_strides as fit_strides
 from .made_motions import optimal_transitions as optimal_transitions
 from .parametric_control import ParametricController as ParametricController
 from .parametric_edges import ParametricEdge as ParametricEdge

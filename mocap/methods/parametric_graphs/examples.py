@@ -25,6 +25,9 @@ from mocap.matching.point_clouds import distinct_joints
 from mocap.methods.parametric_graphs.tuned import TUNED
 
 FINE = 60  # phases per stride
+HALF = 5  # frames of a window of a transition on either side of its centre
+LEAST_MARGIN = HALF + TUNED.span + 1  # frames that transitions need before and after an action, one to round
+TWO_SEAMS = 3 * HALF + TUNED.span + 2  # frames after the start that two consecutive transitions need
 Cut = tuple[Motion, Array]
 """A clip, and its frames (G,) at the phases of a grid."""
 
@@ -234,16 +237,20 @@ def register_cuts(cuts: Sequence[Cut], within: tuple[int, int]) -> list[Cut]:
     return registered
 
 
-def cut_actions(clips: Sequence[Motion], spans: Sequence[tuple[int, int]]) -> Examples:
+def cut_actions(
+    clips: Sequence[Motion],
+    spans: Sequence[tuple[int, int]],
+    *,
+    margin: float | None = TUNED.margin,
+) -> Examples:
     """Cut one action out of each clip, register them, and sample all on one grid of phases [HG07, examples].
-
-    Margins of 0.38 of the action are kept before and after it, for the windows of transitions, which last
-    0.3 s.
 
     Parameters
     ----------
     clips : one for each example, of one skeleton and rate. Footplants are detected unless they are marked.
     spans : for each clip, the frames at which the action begins and ends.
+    margin : fraction of the action that is kept before and after it for the windows of transitions, or None
+        for as many frames as these need: 9, or more after an action of less than half a second.
 
     Raises
     ------
@@ -262,17 +269,35 @@ def cut_actions(clips: Sequence[Motion], spans: Sequence[tuple[int, int]]) -> Ex
     if len(spans) != len(clips):
         raise MocapError(f"Actions are cut by one span for each clip, got {len(clips)} and {len(spans)}.")
     clips = require_compatible(clips)
-    margin = round(TUNED.margin * FINE)
-    grid = np.arange(-margin, FINE + margin + 1) / FINE
+    side = round((TUNED.margin if margin is None else margin) * FINE)
+    grid = np.arange(-side, FINE + side + 1) / FINE
     cuts = []
     for clip, (first, last) in zip(clips, spans, strict=True):
         frames = first + grid * (last - first)
+        if margin is None:
+            frames = np.interp(grid, *margin_knots(grid, [0.0, 1.0], [first, last]))
         if not (first < last and frames[0] >= 0 and frames[-1] <= len(clip) - 1):
             action = f"an action from {first} to {last} with its margins takes those"
             need = f"{action} from {frames[0]:.0f} to {frames[-1]:.0f}"
             raise MocapError(f"'{clip.name}' has {len(clip)} frames; {need}: leave it more room, or out.")
         cuts.append((clip if clip.contacts else mark_plants(clip), frames))
-    return sample_cuts(register_cuts(cuts, (margin, margin + FINE)), grid)
+    return sample_cuts(register_cuts(cuts, (side, side + FINE)), grid)
+
+
+def margin_knots(grid: Array, phases: Sequence[float], frames: Sequence[float]) -> tuple[Array, Array]:
+    """Extend the phases of events and their frames (K,) by the least margins of a grid, (K + 2,) each.
+
+    The transitions into and out of a quick action would overlap, so the second is centred after its end.
+
+    Examples
+    --------
+    >>> phases, frames = margin_knots(np.array([-0.5, 0, 1, 1.5]), [0, 1], [20, 60])
+    >>> phases.tolist(), frames.tolist()
+    ([-0.5, 0.0, 1.0, 1.5], [11, 20, 60, 69])
+    """
+    needed_after = max(LEAST_MARGIN, TWO_SEAMS - (frames[-1] - frames[0]))
+    extended_frames = [frames[0] - LEAST_MARGIN, *frames, frames[-1] + needed_after]
+    return np.array([grid[0], *phases, grid[-1]]), np.array(extended_frames)
 
 
 def sample_cuts(cuts: Sequence[Cut], grid: Array, *, dropped: int = 0) -> Examples:

@@ -13,10 +13,10 @@ from mocap.body.motion import Motion
 from mocap.errors import MocapError
 from mocap.matching.distance_grids import Cloud, cloud, cloud_distances
 from mocap.methods.match_webs.target_weights import sample_weights, weights_for
+from mocap.methods.parametric_graphs.examples import HALF
 from mocap.methods.parametric_graphs.stride_spaces import Space
 from mocap.methods.parametric_graphs.tuned import TUNED
 
-HALF = 5  # frames of a window on either side of its centre
 WINDOW = 2 * HALF + 1  # frames, a third of a second at 30 Hz
 ROWS = 8  # number of sources compared in one product
 

@@ -16,6 +16,11 @@ from mocap.methods.parametric_graphs.tuned import TUNED
 
 Space = MotionSpace[Examples]
 
+PARAMETERS = ("turn", "speed")  # the columns of `Examples.values`
+MISSING = {
+    "turn": "a clip that turns to the left, and one to the right",
+    "speed": "a clip that is slower, and one that is quicker",
+}
 SMALLEST = 1e-3  # weights below this fraction of the largest count as 0
 
 
@@ -70,8 +75,8 @@ def measure_mixes(strides: Examples, weights: Array) -> Array:
     return np.stack([turn, speed], axis=1)
 
 
-def make_space(strides: Examples, width: float, low: float, high: float) -> Space:
-    """Build a space of turns: sample mixes over a range, and measure their turns [KG04], for [HG07, nodes].
+def make_space(strides: Examples, width: float, low: float, high: float, *, parameter: str = "turn") -> Space:
+    """Build a space of turns or speeds: sample mixes over a range, and measure them [KG04; HG07, nodes].
 
     The turn of a mix with Gaussian weights differs from its target by 4° on average. Weights that are
     interpolated between the measured samples (`methods.match_webs.weights_for`) meet a target to 0.01°.
@@ -79,13 +84,14 @@ def make_space(strides: Examples, width: float, low: float, high: float) -> Spac
     Parameters
     ----------
     strides : N examples.
-    width : standard deviation of the Gaussian, radians. About 14° suits captured strides.
-    low, high : the range of turns, radians, which is reduced to that of the samples.
+    width : standard deviation of the Gaussian, radians or m/s. About 14° suits captured strides.
+    low, high : the range of turns, radians, or of speeds, m/s, which is reduced to that of the samples.
+    parameter : "turn" or "speed".
 
     Raises
     ------
-    MocapError : for a range with fewer than three samples, fewer than three strides, and strides that do not
-        vary.
+    MocapError : for another parameter, a range with fewer than three samples, fewer than two strides, and
+        strides that do not vary.
 
     Examples
     --------
@@ -105,29 +111,32 @@ def make_space(strides: Examples, width: float, low: float, high: float) -> Spac
     """
     if not low < high:
         raise MocapError(f"A range has ends low < high, got {low} and {high}.")
-    values = strides.values[:, :1]
-    if len(values) < 3 or np.ptp(values) < width / 2:
-        got = f"{len(values)} with a turn of {_range_text(values)}"
-        missing = "a clip that turns to the left, and one to the right"
-        if len(values) < 3:
-            missing = f"clips that turn, with {3 - len(values)} or more strides"
-        raise MocapError(f"A space takes 3 strides or more that vary, got {got}: add {missing}.")
+    if parameter not in PARAMETERS:
+        raise MocapError(f"A space has the parameter 'turn' or 'speed', got {parameter!r}.")
+    number = PARAMETERS.index(parameter)
+    column = slice(number, number + 1)
+    values = strides.values[:, column]
+    if len(values) < 2 or np.ptp(values) < width / 2:
+        got = f"{len(values)} with a {parameter} of {_range_text(parameter, values)}"
+        missing = MISSING[parameter] if len(values) > 1 else f"clips that vary in their {parameter}"
+        raise MocapError(f"A space takes 2 strides or more that vary, got {got}: add {missing}.")
     targets = np.linspace(low - width, high + width, TUNED.samples)[:, None]
     weights = bell_weights(values, targets, width)
-    turns = measure_mixes(strides, weights)[:, :1]
-    lowest = np.array([max(low, turns.min())])
-    highest = np.array([min(high, turns.max())])
+    measured = measure_mixes(strides, weights)[:, column]
+    lowest = np.array([max(low, measured.min())])
+    highest = np.array([min(high, measured.max())])
     scale = np.maximum((highest - lowest) / 2, 1e-9)
-    space = MotionSpace(strides, weights, turns, scale, ("turn",), lowest, highest)
+    space = MotionSpace(strides, weights, measured, scale, (parameter,), lowest, highest)
     if len(space.reached) < 3:
         inside = f"{len(space.reached)} of {TUNED.samples} samples"
-        raise MocapError(f"Only {inside} lie in the range: they come to a turn of {_range_text(turns)}.")
+        reached = f"they come to a {parameter} of {_range_text(parameter, measured)}"
+        raise MocapError(f"Only {inside} lie in the range: {reached}.")
     return space
 
 
-def _range_text(turns: Array) -> str:
-    """Format the smallest and the largest of some turns."""
-    return f"{parameter_text('turn', turns.min())} to {parameter_text('turn', turns.max())}"
+def _range_text(parameter: str, values: Array) -> str:
+    """Format the smallest and the largest of some values of a parameter."""
+    return f"{parameter_text(parameter, values.min())} to {parameter_text(parameter, values.max())}"
 
 
 def parameter_text(name: str, value: float) -> str:

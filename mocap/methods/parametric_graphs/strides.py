@@ -8,6 +8,7 @@ Notebook: 17-parametric-graphs
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -19,7 +20,9 @@ from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
 from mocap.methods.parametric_graphs.examples import (
     FINE,
+    LEAST_MARGIN,
     Examples,
+    margin_knots,
     mixed_trajectory,
     register_cuts,
     sample_cuts,
@@ -35,7 +38,7 @@ def cut_strides(
     feet: str = STRIDE,
     by: str = "strikes",
     label: str = "",
-    margin: float = TUNED.margin,
+    margin: float | None = TUNED.margin,
 ) -> Examples:
     """Cut clips at foot strikes, and sample all examples on one grid of phases [HG07, examples].
 
@@ -47,7 +50,8 @@ def cut_strides(
         the one of median rotation by registration curves [KG03], as the paper does.
     label : only examples with this label in every frame are kept, or all examples with "".
     margin : fraction of a stride that is kept before and after it for the windows of transitions. Quick
-        strides need 0.5.
+        strides need 0.5. None keeps as many frames as these windows need, 9 or more after a quick step, and
+        loses fewer strides at the ends of clips.
 
     Returns
     -------
@@ -73,14 +77,16 @@ def cut_strides(
     clips = require_compatible(clips)
     clips = [clip if clip.contacts else mark_plants(clip) for clip in clips]
     step = 2 / (len(feet) - 1) / FINE
-    margin_phases = round(margin * FINE)
+    margin_phases = round((TUNED.margin if margin is None else margin) * FINE)
     grid = np.asarray(np.arange(-margin_phases, round(1 / step) + margin_phases + 1) * step, float)
-    candidates = [(clip, frames) for clip in clips for frames in _example_frames(clip, feet, label, grid)]
+    cut = partial(_example_frames, feet=feet, label=label, grid=grid, is_shortest=margin is None)
+    candidates = [(clip, frames) for clip in clips for frames in cut(clip)]
     cuts = [(clip, frames) for clip, frames in candidates if frames is not None]
     dropped = len(candidates) - len(cuts)
     if not cuts:
         wanted = f"'{feet}' labelled '{label}'" if label else f"'{feet}'"
-        strikes = f"{len(feet)} foot strikes in a row, and half a stride on either side"
+        room = "half a stride" if margin else f"{LEAST_MARGIN / clips[0].fps:.2g} s"
+        strikes = f"{len(feet)} foot strikes in a row, and {room} on either side"
         left_out = f"{dropped} were left out"
         raise MocapError(f"No example of {wanted} in {len(clips)} clips; {left_out}: add one with {strikes}.")
     if by == "curves":
@@ -95,16 +101,22 @@ class _Strike(NamedTuple):
     foot: str
 
 
-def _example_frames(clip: Motion, feet: str, label: str, grid: Array) -> Iterator[Array | None]:
-    """Yield the frames (G,) of each example at the phases of a grid, or None for an unusable example."""
+def _example_frames(
+    clip: Motion, feet: str, label: str, grid: Array, is_shortest: bool = False
+) -> Iterator[Array | None]:
+    """Yield the frames (G,) of each example at the phases of a grid, or None for an unusable example.
+
+    With `is_shortest`, the margins are the shortest that transitions need.
+    """
     strikes = _strikes(clip)
+    frames_at = _frames_with_shortest_margins if is_shortest else _frames_at
     count = len(feet)
     labelled = clip.labels[label] if label in clip.labels else np.full(len(clip), not label)
     for first in range(len(strikes) - count + 1):
         start = strikes[first]
         last = strikes[first + count - 1]
         if start.foot == feet[0] and labelled[start.frame : last.frame + 1].all():
-            frames = _frames_at(grid, strikes, first, feet, clip.fps)
+            frames = frames_at(grid, strikes, first, feet, clip.fps)
             is_inside = frames is not None and frames[0] >= 0 and frames[-1] <= len(clip) - 1
             yield frames if is_inside else None
 
@@ -127,14 +139,12 @@ def _frames_at(grid: Array, strikes: Sequence[_Strike], first: int, feet: str, f
 
     The margins extend to the strikes before and after, or, without these, by the duration of the next step.
     """
-    stop = first + len(feet)
-    example = strikes[first:stop]
-    frames = np.array([strike.frame for strike in example], float)
-    steps = np.diff(frames)
-    shortest, longest = (seconds * fps for seconds in TUNED.step_seconds)
-    order = "".join(strike.foot for strike in example)
-    if order != feet or steps.min() < shortest or steps.max() > longest:
+    frames = _strike_frames(strikes, first, feet, fps)
+    if frames is None:
         return None
+    steps = np.diff(frames)
+    stop = first + len(feet)
+    shortest, longest = (seconds * fps for seconds in TUNED.step_seconds)
     previous = frames[0] - strikes[first - 1].frame if first else 0.0
     following = strikes[stop].frame - frames[-1] if stop < len(strikes) else 0.0
     first_margin = previous if shortest <= previous <= longest else steps[0]
@@ -142,6 +152,29 @@ def _frames_at(grid: Array, strikes: Sequence[_Strike], first: int, feet: str, f
     phases = np.arange(-1, len(feet) + 1) / (len(feet) - 1)
     extended = [frames[0] - first_margin, *frames, frames[-1] + last_margin]
     return np.asarray(np.interp(grid, phases, extended))
+
+
+def _frames_with_shortest_margins(
+    grid: Array, strikes: Sequence[_Strike], first: int, feet: str, fps: float
+) -> Array | None:
+    """Interpolate the frames (G,) as `_frames_at`, with the shortest margins that transitions need."""
+    frames = _strike_frames(strikes, first, feet, fps)
+    if frames is None:
+        return None
+    phases = np.arange(len(feet)) / (len(feet) - 1)
+    return np.asarray(np.interp(grid, *margin_knots(grid, phases.tolist(), frames.tolist())))
+
+
+def _strike_frames(strikes: Sequence[_Strike], first: int, feet: str, fps: float) -> Array | None:
+    """Return the frames of the strikes of an example (K,), or None for other `feet` and other durations."""
+    example = strikes[first : first + len(feet)]
+    frames = np.array([strike.frame for strike in example], float)
+    steps = np.diff(frames)
+    shortest, longest = (seconds * fps for seconds in TUNED.step_seconds)
+    order = "".join(strike.foot for strike in example)
+    if order != feet or steps.min() < shortest or steps.max() > longest:
+        return None
+    return frames
 
 
 def _calibrated(strides: Examples, *, steps: bool) -> Examples:

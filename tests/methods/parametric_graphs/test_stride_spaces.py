@@ -97,7 +97,7 @@ test_what_makes_no_sense_is_refused = refusals(
     ("A range has ends low < high", lambda: made(low=0.5)),
     ("A range has ends low < high", lambda: made(high=np.nan)),
     (r"Only 0 of 120 .*: they come to a turn of 88° to 88°\.", lambda: made(low=20.0, high=21.0)),
-    ("that vary, got 2 with .*: add clips that turn, with 1 or more strides", lambda: made(lambda: some(2))),
+    ("that vary, got 1 with .*: add clips that vary in their turn", lambda: made(lambda: some(1))),
     (
         "got 7 with a turn of -1° to 1°: add a clip that turns to the left, and one",
         made,
