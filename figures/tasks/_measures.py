@@ -1,5 +1,6 @@
 """What several tasks measure of an answer: nothing but its bones and places is read, no marks."""
 
+from functools import cache
 from itertools import combinations
 
 import numpy as np
@@ -11,18 +12,40 @@ from mocap.files.gltf_capsules import THICK
 from mocap.quality import jumps, spread
 
 LOW = 0.025  # metres: a foot joint this much over its lowest place slides as little as it likes
+STANDING = 2  # percent of the heights of a foot joint: as high as it stands
 USUAL = 99.9  # percent of the clips' own frames
 
 
-def foot_sliding_speed(motion: Motion) -> float:
+def foot_sliding_speed(motion: Motion, clips: tuple[Motion, ...]) -> float:
     """Average how fast low feet slide, cm/s: each ankle's and ball's speed times 2 - 2^(height / 2.5 cm).
 
-    Zhang et al., *Mode-Adaptive Neural Networks for Quadruped Motion Control* (2018), measure it so.
+    Zhang et al., *Mode-Adaptive Neural Networks for Quadruped Motion Control* (2018), measure it so. Heights
+    are above one floor for all answers, that of the clips. Above its own floor, more frames of a motion count
+    as low if its feet always stand at one height, so that cleaned feet seemed to slide further.
     """
-    feet = joint_positions(motion)[:, [joint for leg in find_legs(motion.skeleton) for joint in leg[2:]]]
+    feet = _foot_positions(motion)
     speed = np.linalg.norm(np.diff(feet[..., [0, 2]], axis=0), axis=-1) * motion.fps
-    height = (feet[..., 1] - np.percentile(feet[..., 1], 2, axis=0))[1:]
+    height = (feet[..., 1] - floor_of(clips))[1:]
     return 100 * float((speed * np.clip(2 - 2 ** (height / LOW), 0, 1)).mean())
+
+
+def _foot_positions(motion: Motion) -> Array:
+    """Return the positions of the ankles and the balls, (F, 4, 3)."""
+    joints = [joint for leg in find_legs(motion.skeleton) for joint in leg[2:]]
+    return joint_positions(motion)[:, joints]
+
+
+@cache
+def floor_of(clips: tuple[Motion, ...]) -> Array:
+    """Return how high ankles and balls stand in some clips, (4,), metres: the 2nd percentile of each."""
+    heights = np.concatenate([_foot_positions(clip)[..., 1] for clip in clips])
+    return np.asarray(np.percentile(heights, STANDING, axis=0))
+
+
+def sliding_of_clips(clips: tuple[Motion, ...]) -> float:
+    """Measure how fast low feet slide in the clips themselves, cm/s, averaged over their frames."""
+    speeds = [foot_sliding_speed(clip, clips) for clip in clips]
+    return float(np.average(speeds, weights=[len(clip) - 1 for clip in clips]))
 
 
 def jolting(motion: Motion, clips: tuple[Motion, ...]) -> float:

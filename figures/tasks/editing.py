@@ -28,6 +28,8 @@ from mocap.editing import (
     plant_pins,
     solve,
 )
+from mocap.editing.solver import closing_stages
+from mocap.editing.tuned import TUNED
 from tasks import Case
 from tasks._measures import through
 
@@ -42,6 +44,10 @@ STONES, BARS = (0.1, 0.3, 0.5), (0.9, 0.75)  # metres; shares of the height of t
 HEAD, FEET = ("head_end", "head", "upperneck", "lowerneck"), ("lfoot", "ltoes")
 SECONDS, AROUND, HELD = 5.0, 0.5, 0.4
 AHEAD = (-0.15, 0.3, 0.15)  # metres, to the body's left, up and ahead: where the hand shall be
+SPACETIME = (  # one spline for the whole motion, then what closes the rest of the distance
+    Stage(knots=TUNED.worn_knots, decay=TUNED.worn_decay, passes=TUNED.worn_passes),
+    *closing_stages(),
+)
 NOISE = ("hand", "finger", "thumb", "_end")  # of names of joints whose accelerations are those of markers
 
 
@@ -108,7 +114,7 @@ def in_between(case: Case) -> Motion:
 
 METHODS = {
     "edit": lambda case: edit(case.given["motion"], pins_of(case)),
-    "spacetime": lambda case: solve(case.given["motion"], pins_of(case), [Stage(knots=0.125)]).motion,
+    "spacetime, as in retargeting": lambda case: solve(case.given["motion"], pins_of(case), SPACETIME).motion,
     "five levels": lambda case: hierarchy(case.given["motion"], pins_of(case))[0],
     "each frame by itself": lambda case: solve(case.given["motion"], pins_of(case), [REACH]).motion,
     "linear in-betweening": in_between,

@@ -2,6 +2,9 @@
 
 Pose: the RMS distance of its points from those of the captured stride, aligned at each of 25 moments. End:
 the distance between the ends of both, relative to their starts. Turn: the difference between their turns.
+
+A walker's turns differ more from one another than their turn says, such as sharp ones on the spot and long
+ones around a bend: a mean of all is nearer in its pose than one of those with the turn that is asked for.
 """
 
 from collections.abc import Callable, Iterator

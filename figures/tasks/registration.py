@@ -29,6 +29,7 @@ CLIPS = {
     "CMU 16, runs": tuple(f"16/16_{trial}" for trial in CMU_RUNS),
 }
 MEASURES = {"strikes (ms)": True, "late (%)": True, "wobble (%)": True}
+DECIDED = {"wobble (%)": "a line does not wobble"}
 BASELINES = ("fitted line", "even stretch")
 LATE = 100  # milliseconds
 SLACK = 36  # frames

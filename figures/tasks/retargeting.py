@@ -34,6 +34,10 @@ CLIPS = {  # the last one, where it is another person's, is not worn, but its bo
 }
 LONGEST = 240  # frames
 MEASURES = {"slide, mm": True, "height, mm": True, "shake": True, "pose, °": True}
+DECIDED = {
+    "shake": "the copied poses shake as themselves",
+    "pose, °": "the copied poses point as themselves",
+}
 BASELINES = ("angles", "poses", "poses, feet frame by frame")
 
 

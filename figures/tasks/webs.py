@@ -97,6 +97,7 @@ Method = Callable[[Case], Array]
 ONE_STEP = {f"one step, {100 * below:.0f} cm": partial(searched, below=below, steps=1) for below in LIMITS}
 WEB = {f"web, {100 * below:.0f} cm": partial(searched, below=below, steps=None) for below in LIMITS}
 METHODS: dict[str, Method] = ONE_STEP | WEB
+DECIDED = {"precision, %": "a search that finds few strides is right about them"}
 BASELINES = tuple(name for name in METHODS if name.startswith("one step"))
 
 

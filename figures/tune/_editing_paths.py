@@ -507,7 +507,7 @@ TRIALS = {
     "loop_rate": Trial(cycles, (15.0, 60.0)),
     "loop_rows": Trial(cycles, (60, 200)),
     "loop_percentile": Trial(cycles, (50.0, 100.0)),
-    "loop_motion": Trial(cycles, (0.0, 0.8)),
+    "loop_motion": Trial(cycles, (0.0, 0.5, 1.0)),
     "loop_slack": Trial(cycles, (1.0, 1.3)),
     "loop_margin": Trial(cycles, (0.3, 1.0, 6.0)),
     "loop_seam": Trial(cycles, (0.1, 0.4)),

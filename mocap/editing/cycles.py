@@ -5,8 +5,8 @@ Therefore the cost of a cycle has two terms, in metres: the distance between its
 of the other frames of the clip from the nearest frame of the cycle. The weight of a frame in the mean is the
 displacement of the body to the next frame, so that the cycle of a clip in which somebody mostly stands is a
 step. The second term is large for a held pose, and for half a stride. In a clip that begins or ends with a
-long stand, a held pose may still cost least: therefore a cycle moves at least half as much as the clip does.
-Method and cost are ours.
+long stand, a held pose may still cost least: therefore a cycle moves at least three quarters as much as the
+clip does. Method and cost are ours.
 """
 
 import warnings
@@ -35,6 +35,7 @@ from mocap.matching.point_clouds import point_cloud
 
 SHORTEST = 0.4  # seconds, the shortest cycle that is searched for by default
 LONGEST = 3.0  # seconds, the longest one
+STILL = 1e3  # metres: more than any cost. A held pose is chosen only if the bounds allow nothing else
 TINY = 1e-9  # metres, and of the clip's motion: no weight is 0, and no average of nothing is 0 / 0
 
 # m² and metres. In 32 bits D is exact to some 4e-7 m², so a D of less than `NOTHING` is 0. Costs are then
@@ -83,7 +84,7 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (SHORTEST, LONGE
     >>> [find_loop(clip)[:2] for clip in (walk[994:1166], resample(walk, 20))]
     [(5, 136), (154, 176)]
     >>> [find_loop(walk, seconds=bounds)[:2] for bounds in ((2.0, 3.0), (0.2, 0.2))]  # two strides; the least
-    [(872, 1133), (820, 844)]
+    [(872, 1133), (432, 456)]
     """
     require_motion(motion)
     slow = resample(motion, TUNED.loop_rate) if motion.fps > TUNED.loop_rate else motion
@@ -135,9 +136,9 @@ def _best(grid: Floats, shortest: int, longest: int) -> tuple[int, int, float]:
             weight_inside = cumulated[length:-1] - cumulated[:starts]
             missed = weights @ nearest[:, :starts] / np.maximum(1 - weight_inside, TINY)
             costs = np.diagonal(grid, length) + missed
-            moves_enough = moved[length:-1] - moved[:starts] >= length * least_per_frame
-            if moves_enough.any():
-                costs = np.where(moves_enough, costs, np.inf)
+            motion_of_cycles = moved[length:-1] - moved[:starts]
+            is_held = motion_of_cycles < length * least_per_frame
+            costs = np.where(is_held, costs + STILL, costs)
             start = int(first_least(costs, EQUAL))
             cycles.append((float(costs[start]), start, length, float(missed[start])))
         np.minimum(nearest[:, :starts], rows[:, length:], out=nearest[:, :starts])

@@ -114,7 +114,7 @@ class Tuned:
     loop_longest: float = 300.0  # seconds of a clip. The distances of all its windows take 0.3 GB
     loop_rows: int = 600  # frames of the clip, at even distances, that a cycle may cover
     loop_percentile: float = 90.0  # of displacements, to which larger ones count, where the data leap
-    loop_motion: float = 0.5  # of the clip's motion per frame. A cycle that moves less is a held pose
+    loop_motion: float = 0.75  # of the clip's motion per frame. A cycle that moves less is a held pose
     loop_slack: float = 1.1  # times the least cost. Two strides are hardly better than one
     loop_margin: float = 3.0  # seconds: longer than a footplant, and than the reach of any correction
     loop_seam: float = 0.2  # seconds, of the windows that are compared, and of the blend

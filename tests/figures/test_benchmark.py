@@ -13,6 +13,7 @@ import tasks
 import mocap
 from mocap import quality
 from mocap.body import SHAPES
+from mocap.datasets import sample
 from mocap.errors import MocapError
 from mocap.methods.motion_matching import MotionMatcher, tabulate
 from tests.loops import for_each
@@ -38,39 +39,103 @@ TOY = SimpleNamespace(
 )
 
 
+def rows_of_toys(task):
+    """Run a task on the toys, without the columns that are no measures."""
+    return [row for row in benchmark.run(task, CASES) if row.measure in task.MEASURES]
+
+
 def test_methods_are_compared_with_the_best_baseline_case_by_case():
     methods = {**TOY.METHODS, "worse": lambda case: np.full((1, 1), 99)}
     worse = SimpleNamespace(**{**vars(TOY), "METHODS": methods})
-    lines = benchmark.table(worse, list(benchmark.run(worse, CASES)))
+    lines = benchmark.table(worse, rows_of_toys(worse))
     assert lines[0] == "| | | off ↓ | guessed ↑ |"
     assert lines[2] == "| toys (5) | *start* | 3.00 [2.00, 4.00] | 3.00 [2.00, 4.00] |"
     assert lines[4] == "|  | guess, refuses 1 | 1.00 [1.00, 1.00]; 4 : 1 | 6.00 [4.50, 7.50]; 4 : 1 |"
     assert lines[5] == "|  | worse | 93 [91, 95]; **0 : 5** | 99 [99, 99]; 5 : 0 |"
-    told = benchmark.summary({"Toys": "\n".join(lines)})[2:]
-    assert told == ["| Toys | guess | 2 | 0 | 0 |", "| Toys | worse | 1 | 0 | 1 |"]
+    counts = benchmark.summary({"Toys": "\n".join(lines)})[2:]
+    assert counts == [
+        "| Toys | guess | 1 | 0 | 0 | 0 | 2 | 0 | 0 | 0 |",
+        "| Toys | worse | 0 | 0 | 1 | 0 | 1 | 0 | 1 | 0 |",
+    ]
+
+
+def test_a_baseline_counts_on_all_measures_at_once():
+    """The second row is worse than one baseline, and the third than none, though one wins each measure."""
+    table = "| | | off ↓ | near ↑ |\n|---|\n| toys (2) | *a* | 1.00 | 5.00 |\n|  | *b* | 9 | 9 |\n"
+    cells = {
+        "better": "0.50; 2 : 0 | 9; 0 : 0",
+        "lower": "1.00; 0 : 0 | 4; **0 : 2**",
+        "between": "2; **0 : 2** | 8; **0 : 2**",
+    }
+    lines = [f"|  | {name} | {cell} |" for name, cell in cells.items()]
+    counts = benchmark.summary({"Toys": table + "\n".join(lines)})[2:]
+    ranks = [line.split(" | ")[2:6] for line in counts]
+    assert ranks == [["1", "0", "0", "0"], ["0", "0", "0", "1"], ["0", "0", "1", "0"]]
+
+
+def test_one_who_is_better_than_one_baseline_and_as_far_as_another_is_between():
+    assert benchmark.dominates((1.0, 2.0), (1.0, 1.0))
+    assert not benchmark.dominates((1.0, 1.0), (1.0, 1.0))
+    assert not benchmark.dominates((2.0, 0.0), (1.0, 1.0))
+    assert benchmark.dominates((-9.0, 0.0), (-np.inf, -np.inf))
+    assert not benchmark.dominates((-np.inf,), (-np.inf,))
+
+
+def test_what_is_decided_is_marked_once_and_counted_by_itself():
+    text = "| | | shake ↓ | slide, mm ↓ | CPU, s |\n|---|\n| toys (2) | *as it is* | 1 | 5 | 1 |\n"
+    text += "|  | clean up | 2; **0 : 2** | 0; 2 : 0 | 1 |\n|  | other | 3; 1 : 1 | 9; **0 : 2** | 1 |"
+    once = benchmark.marked("Clean up", text)
+    assert once.splitlines()[3] == "|  | clean up | 2; **0 : 2** † | 0; 2 : 0 | 1 |"
+    assert benchmark.marked("Clean up", once) == once
+    lines = benchmark.list_decided({"Clean up": once})
+    assert "wins 2 cells. Of these 1 are decided by\nconstruction (†), which leaves 1:" in lines[0]
+    assert any(line.startswith("| Clean up | shake | 1 | ") for line in lines)
+    assert benchmark.summary({"Clean up": once})[2].endswith(" | 1 | 0 | 1 | 1 |")
+
+
+def test_seams_and_time_stand_beside_the_measures_and_the_clips_below():
+    body = sample()[:4]
+    methods = {"start": lambda case: body, "walk": lambda case: tasks.Walked(body, 0.5)}
+    walks = SimpleNamespace(
+        MEASURES={"off": True, "long": False},
+        BASELINES=("start",),
+        METHODS=methods,
+        score=lambda case, answer: (case.truth, len(answer)),
+        of_clips=lambda case: (np.nan, 7.0),
+    )
+    lines = benchmark.table(walks, list(benchmark.run(walks, CASES)))
+    assert lines[0] == "| | | off ↓ | long ↑ | seams/s | CPU, s |"
+    assert [line.split(" | ")[-2] for line in lines[2:]] == ["–", "0.5", "–"]
+    assert lines[4].startswith("|  | the clips themselves, refuses 0".removesuffix(", refuses 0"))
+    assert lines[4].split(" | ")[2:4] == ["–", "7.00 [7.00, 7.00]"]
+    assert [row.method for row in benchmark.rows_of("\n".join(lines))] == ["start", "walk"]
 
 
 def test_a_task_that_is_run_again_takes_the_place_of_its_section():
-    text = benchmark.page({"Webs": "old\n\n| a |", "Control": "kept", "Other": "no task"})
-    found = benchmark.sections_of(text)
-    assert list(found) == ["Control", "Webs"] and found["Control"] == "kept"
-    anew = benchmark.sections_of(benchmark.page({**found, "Webs": "new"}))
-    assert anew == {"Control": "kept", "Webs": "new"}
+    text = benchmark.page({"Webs": "| | | old |\n|---|", "Control": "| | | kept |", "Other": "no task"})
+    sections = benchmark.sections_of(text)
+    assert list(sections) == ["Control", "Webs"]
+    assert sections["Control"] == "| | | kept |"
+    again = benchmark.sections_of(benchmark.page({**sections, "Webs": "| | | new |"}))
+    assert again == {"Control": "| | | kept |", "Webs": "| | | new |"}
 
 
 def test_the_page_has_a_section_for_every_task():
-    found = benchmark.sections_of(benchmark.PAGE.read_text("utf-8"))
+    page = benchmark.PAGE.read_text("utf-8")
+    found = benchmark.sections_of(page)
     assert list(found) == [benchmark.title_of(name) for name in tasks.TASKS]
+    assert benchmark.page(found) == page, "count it anew: python figures/benchmark.py --again"
     for name in tasks.TASKS:
         task = import_module(f"tasks.{name}")
         text = found[benchmark.title_of(name)]
-        assert text.startswith(task.__doc__.strip()) and all(f"| *{one}*" in text for one in task.BASELINES)
+        assert task.__doc__.strip() in page
+        assert all(f"| *{one}*" in text for one in task.BASELINES)
 
 
 def test_an_answer_of_another_program_is_scored_as_those_of_methods(tmp_path):
     for case in CASES[1:]:
         (tmp_path / f"{case.name}.csv").write_text(f"{case.truth - 1}\n")
-    rows = list(benchmark.run(TOY, CASES, tmp_path))
+    rows = [row for row in benchmark.run(TOY, CASES, tmp_path) if row.measure in TOY.MEASURES]
     values = {m: [row.value for row in rows if row.method == m] for m in ("guess", benchmark.ENTERED)}
     assert np.array_equal(values["guess"], values[benchmark.ENTERED], equal_nan=True)  # the first is missing
 
