@@ -11,6 +11,7 @@ from cyclopts import Parameter
 
 from mocap._shared.atomic import require_writable, write_file
 from mocap.cli.option_types import number
+from mocap.cli.outputs import require_address
 from mocap.cli.stages import bar
 from mocap.cli.typed_commands import Group
 from mocap.course import marking
@@ -61,20 +62,23 @@ def handout(
     print(f"wrote {len(hand_out(notebooks, out, origin, worth, nbgrader=nbgrader))} notebooks to {out}")
 
 
-def site(*, out: Path = Path("mocap-site"), moving: Moving = False) -> None:
+def site(*, out: Path = Path("mocap-site"), moving: Moving = False, address: str = "") -> None:
     """Write the course as HTML pages that need no network.
 
     Parameters
     ----------
     out : folder to write to.
+    address (URL) : where the site will be published, as in https://example.org/course. Links to it then show
+        a picture.
 
     Notes
     -----
     Example: mocap course site -o site
     """
+    require_address(address, "https://example.org/course")
     from mocap.course.site import build_site  # the help needs no NumPy
 
-    print(f"wrote {build_site(stored(), out, bar('converting'), moving=moving)}")
+    print(f"wrote {build_site(stored(), out, bar('converting'), moving=moving, address=address)}")
 
 
 def slides(*, out: Path = Path("mocap-slides"), moving: Moving = False) -> None:

@@ -1,6 +1,7 @@
 """Results of a command: its rows of text, and the files that it writes, which are checked before any work."""
 
 import os
+import re
 import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -102,6 +103,19 @@ def _roles_of(motion: "Motion") -> dict[str, int]:
         return roles(motion.skeleton)
     except MocapError:
         return {}
+
+
+def require_address(address: str, example: str) -> None:
+    """Raise unless an address is empty or a URL.
+
+    Examples
+    --------
+    >>> require_address("example.org", "https://example.org/walk.html")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: --address is a URL such as https://example.org/walk.html, got 'example.org'.
+    """
+    if address and not re.match("https?://[^/]", address):
+        raise MocapError(f"--address is a URL such as {example}, got '{address[:40]}'.")
 
 
 def open_page(page: Path) -> None:

@@ -15,7 +15,7 @@ from mocap._shared.deadlines import OUT_OF_TIME
 from mocap.cli import options
 from mocap.cli.option_types import TURN, Clean, Joints, Seed, Skeleton, number
 from mocap.cli.options import Building, PathReading, Sources
-from mocap.cli.outputs import check_out, open_page, print_rows, require_other, write_out
+from mocap.cli.outputs import check_out, open_page, print_rows, require_address, require_other, write_out
 from mocap.cli.stages import bar, timed_stage
 from mocap.cli.tuned import TUNED
 from mocap.cli.typed_commands import ONE_EACH, OptionalValue
@@ -161,8 +161,7 @@ def _check_page(graph: Path | None, address: str, skeleton: object) -> None:
     """Raise for options of a graph without a graph, and for an address that is no URL."""
     if graph is None and skeleton:
         raise MocapError("--skeleton and --joints belong to a graph: the bundled clips need neither.")
-    if address and not re.match("https?://[^/]", address):
-        raise MocapError(f"--address is a URL such as https://example.org/walk.html, got '{address[:40]}'.")
+    require_address(address, "https://example.org/walk.html")
 
 
 def _seconds(text: str) -> float:

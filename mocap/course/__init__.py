@@ -22,12 +22,13 @@ Reading order
 13. `handout`: copies without solutions
 14. `formulas`: formulas as MathML
 15. `recording`: positions of an experiment, as pictures for pages without Python
-16. `site`: the course as HTML pages, beside the reference pages of the package
-17. `conf`: how Sphinx makes these pages
-18. `diagrams`: ideas drawn step by step
-19. `lab`: what students wrote is used, and what they thought is kept
-20. `marking`: marks for notebooks handed in, whose code runs sealed
-21. `teaching`: slides and films that are made from the notebooks
+16. `live_experiments`: small experiments that run on pages without Python
+17. `site`: the course as HTML pages, beside the reference pages of the package
+18. `conf`: how Sphinx makes these pages
+19. `diagrams`: ideas drawn step by step
+20. `lab`: what students wrote is used, and what they thought is kept
+21. `marking`: marks for notebooks handed in, whose code runs sealed
+22. `teaching`: slides and films that are made from the notebooks
 
 References
 ----------

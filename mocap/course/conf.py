@@ -19,9 +19,9 @@ autodoc_typehints = "none"
 autodoc_member_order = "bysource"
 napoleon_custom_sections = ["Reading order"]
 html_theme = "furo"
-html_static_path = ["site.css", "moving.js", "site.js"]
+html_static_path = ["site.css", "moving.js", "live.js", "site.js"]
 html_css_files = ["site.css"]
-html_js_files = [("moving.js", {"defer": ""}), ("site.js", {"defer": ""})]
+html_js_files = [(name, {"defer": ""}) for name in ("moving.js", "live.js", "site.js")]
 html_copy_source = html_show_sourcelink = html_show_copyright = False
 html_math_renderer = "mathml"
 html_show_search_summary = False  # it would fetch pages, which browsers refuse without a server

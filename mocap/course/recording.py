@@ -51,24 +51,27 @@ def record(experiment: Experiment, *, room: int = ROOM) -> dict[str, Any] | None
     (['0', '2', '4'], 1, 3)
     """
     for name, control in experiment.controls.items():
-        if hasattr(control, "with_handles") or not (positions := _positions(control)):
-            continue
-        rest = control.value
-        at = next(number for number, (_, value) in enumerate(positions) if value == rest)
-        try:
-            stills = [experiment.set(**{name: value}).still()[0]["image/png"] for _, value in positions]
-        finally:
-            experiment.set(**{name: rest})
-        pictures = [Image.open(io.BytesIO(base64.b64decode(png))).convert("RGB") for png in stills]
-        kept, small = _fitting(pictures, at, room)
-        return {
-            "name": name.replace("_", " "),
-            "labels": [positions[number][0] for number in kept],
-            "pictures": [base64.b64encode(data).decode() for data in small],
-            "at": kept.index(at),
-            "alt": experiment.alt,
-        }
+        positions = [] if hasattr(control, "with_handles") else _positions(control)
+        if positions:
+            return _recorded(experiment, name, positions, room)
     return None
+
+
+def _recorded(
+    experiment: Experiment, name: str, positions: list[tuple[str, Any]], room: int
+) -> dict[str, Any]:
+    """Return the recording of one control of an experiment, at the given positions."""
+    initial = experiment.controls[name].value
+    rest = next(number for number, (_, value) in enumerate(positions) if value == initial)
+    try:
+        stills = [experiment.set(**{name: value}).still()[0]["image/png"] for _, value in positions]
+    finally:
+        experiment.set(**{name: initial})
+    pictures = [Image.open(io.BytesIO(base64.b64decode(png))).convert("RGB") for png in stills]
+    kept, small = _fitting(pictures, rest, room)
+    recording = {"name": name.replace("_", " "), "labels": [positions[number][0] for number in kept]}
+    encoded = [base64.b64encode(data).decode() for data in small]
+    return recording | {"pictures": encoded, "at": kept.index(rest), "alt": experiment.alt}
 
 
 def _positions(control: Any) -> list[tuple[str, Any]]:  # noqa: ANN401
@@ -76,43 +79,63 @@ def _positions(control: Any) -> list[tuple[str, Any]]:  # noqa: ANN401
     if isinstance(control.value, bool):
         return [("off", False), ("on", True)]
     if hasattr(control, "options"):
-        at, positions = control.index, list(control._options_full)
+        rest = control.index
+        positions = list(control._options_full)
     elif hasattr(control, "step"):
         count = 1 + max(1, round((control.max - control.min) / control.step))
         steps = (control.min + number * control.step for number in range(count))
         values = [min(type(control.value)(value), control.max) for value in steps]
-        at = round((control.value - control.min) / control.step)
-        values[at] = control.value
+        rest = round((control.value - control.min) / control.step)
+        values[rest] = control.value
         positions = [(f"{value:.6g}", value) for value in values]
     else:
         return []
-    return [positions[number] for number in _spread(len(positions), at, COUNTS[0])]
+    return [positions[number] for number in _spread(len(positions), rest, COUNTS[0])]
 
 
-def _spread(count: int, at: int, most: int) -> list[int]:
-    """Choose at most `most` of `count` places, evenly, with both ends and the place `at`."""
-    places = np.unique(np.linspace(0, count - 1, min(most, count)).round().astype(int))
-    if at not in places:
+def _spread(count: int, rest: int, limit: int) -> list[int]:
+    """Choose up to `limit` of `count` places, evenly, with both ends and the place `rest`."""
+    places = np.unique(np.linspace(0, count - 1, min(limit, count)).round().astype(int))
+    if rest not in places:
         inner = places[1:-1] if len(places) > 2 else places
-        places[np.flatnonzero(places == inner[np.abs(inner - at).argmin()])] = at
+        nearest = inner[np.abs(inner - rest).argmin()]
+        places[places == nearest] = rest
     return [int(place) for place in np.sort(places)]
 
 
-def _fitting(pictures: list[Image.Image], at: int, room: int) -> tuple[list[int], list[bytes]]:
+def _shrunk(picture: Image.Image, size: float) -> Image.Image:
+    """Return a picture at a share of its width."""
+    if size == 1:
+        return picture
+    width, height = (max(1, round(size * length)) for length in picture.size)
+    return picture.resize((width, height), Image.Resampling.LANCZOS)
+
+
+def _fitting(pictures: list[Image.Image], rest: int, room: int) -> tuple[list[int], list[bytes]]:
     """Choose pictures, and encode them, so that they fit: first smaller, then fewer, then smaller still."""
 
     @cache
+    def palette(size: float) -> Image.Image:
+        # One for all pictures, so that a thing has the same colour in each of them.
+        small = [_shrunk(picture, size) for picture in pictures]
+        width = max(picture.width for picture in small)
+        sheet = Image.new("RGB", (width, sum(picture.height for picture in small)))
+        top = 0
+        for picture in small:
+            sheet.paste(picture, (0, top))
+            top += picture.height
+        return sheet.quantize(COLOURS, Image.Quantize.MAXCOVERAGE)
+
+    @cache
     def encoded(number: int, size: float) -> bytes:
-        picture, data = pictures[number], io.BytesIO()
-        if size < 1:
-            wide, high = (max(1, round(size * length)) for length in picture.size)
-            picture = picture.resize((wide, high), Image.Resampling.LANCZOS)
-        picture.quantize(COLOURS, Image.Quantize.MAXCOVERAGE).save(data, "png", optimize=True)
+        data = io.BytesIO()
+        picture = _shrunk(pictures[number], size)
+        picture.quantize(palette=palette(size), dither=Image.Dither.NONE).save(data, "png", optimize=True)
         return data.getvalue()
 
     tries = [(count, size) for count in COUNTS for size in SIZES[:2]]
     for count, size in [*tries, *((COUNTS[-1], size) for size in SIZES[2:])]:
-        kept = _spread(len(pictures), at, count)
+        kept = _spread(len(pictures), rest, count)
         small = [encoded(number, size) for number in kept]
         if sum(map(len, small)) <= room:
             break

@@ -61,6 +61,15 @@ def test_the_search_answers(page, first):
     wait_until(lambda: "search.html" not in page.url)
 
 
+@pytest.mark.parametrize("term", ["foot sliding", "branch and bound", "motion graph"])
+def test_the_search_finds_a_term_where_it_is_taught(page, first, term):
+    page.goto(first.replace("00-quickstart.html", f"search.html?q={term.replace(' ', '+')}"))
+    results = page.locator("#search-results li a")
+    wait_until(lambda: "finished" in page.locator("#search-results").inner_text())
+    taught = {"foot sliding": "04b", "branch and bound": "07", "motion graph": "05"}[term]
+    assert results.first.get_attribute("href").startswith(taught)
+
+
 def test_the_search_knows_words_near_what_was_typed(page, first):
     page.goto(first.replace("00-quickstart.html", "search.html?q=footskete"))
     wait_until(lambda: page.locator("#search-results .note").count())

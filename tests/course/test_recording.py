@@ -108,3 +108,21 @@ def test_handles_are_left_where_they_are_and_alone_are_not_recorded():
     way = handles(ax, [[0, 1], [1, 0]])
     assert recording.record(explore(draw, alt=ALT, way=way, scale=(0.5, 1.5)))["name"] == "scale"
     assert recording.record(explore(draw, alt=ALT, way=way)) is None
+
+
+def test_a_thing_has_one_colour_in_all_pictures():
+    def draw(dots=1):
+        figure = plt.figure(figsize=(3, 2))
+        axes = figure.add_subplot()
+        axes.imshow(np.linspace(0, 1, 100 * dots).reshape(10, -1), cmap="jet", aspect="auto")
+        axes.scatter(range(dots), [5] * dots, s=400, color=(137 / 255, 172 / 255, 142 / 255))
+        return figure
+
+    recorded = recording.record(explore(draw, alt=ALT, dots=(1, 4)), room=10**7)
+    colours = [np.array(picture.convert("RGB")) for picture in opened(recorded)]
+    discs = []
+    for picture in colours:
+        near = np.abs(picture.astype(int) - (137, 172, 142)).max(axis=-1) < 30
+        discs.append({tuple(colour) for colour in picture[near]})
+    assert all(discs)
+    assert len(set.union(*discs)) == max(map(len, discs))

@@ -13,6 +13,7 @@ import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
 from mocap.course.formulas import to_mathml
+from mocap.course.opening import stored
 from mocap.course.site import STILL, build_site, prepared
 from mocap.datasets.samples import SAMPLES
 from mocap.widgets import live
@@ -122,6 +123,48 @@ def test_nothing_is_loaded_from_elsewhere_and_every_picture_is_told(site):
     for name, page in pages(site).items():
         assert all(not re.match("(https?:)?//", load) for load in page.loads), name
         assert all(len(picture.get("alt", "")) >= 20 for picture in page.pictures), name
+
+
+def test_the_first_page_has_a_start_and_three_groups_of_cards(site):
+    text = (site / "index.html").read_text("utf-8")
+    first = Page(text)
+    assert '<a class="start" href="00-quickstart.html">Start here: 00</a>' in text
+    cards = re.findall(r'<a class="card" href="([^"]+)"><img src="([^"]+)"', text)
+    assert [page for page, _ in cards] == sorted(path.name for path in site.glob("[0-9]*.html"))
+    assert all((site / page).exists() and (site / picture).exists() for page, picture in cards)
+    assert [part.count('class="card"') > 5 for part in text.split('<div class="cards">')[1:]] == [True] * 3
+    assert 'src="walk.html"' in text
+    assert '<meta content="walk.png" property="og:image"' in text
+    assert all(not re.match("(https?:)?//", load) for load in first.loads)
+
+
+def test_links_to_a_published_site_show_a_picture(tmp_path):
+    (tmp_path / "teaching").mkdir()
+    nbformat.write(new_notebook(cells=[new_markdown_cell("# One")]), tmp_path / "00-one.ipynb")
+    build_small(tmp_path, tmp_path / "out", address="https://example.org/course/")
+    for name in ("index.html", "walk.html"):
+        text = (tmp_path / "out" / name).read_text("utf-8")
+        assert "https://example.org/course/walk.png" in text
+
+
+def test_an_unsolved_exercise_invites(site):
+    text = (site / "00-quickstart.html").read_text("utf-8")
+    assert "not there yet" not in text
+    assert "stands in until yours passes" not in text
+    assert "Your turn: write speed where the notebook runs. It must return the speed over the ground" in text
+
+
+def test_recordings_of_the_release_are_those_of_the_cells_of_today():
+    files = sorted((stored() / "recordings").glob("*.json"))
+    assert files
+    for file in files:
+        cells = nbformat.read(stored() / f"{file.stem}.ipynb", 4).cells
+        sources = {cell.source for cell in cells}
+        assert {recording["source"] for recording in json.loads(file.read_text("utf-8"))} <= sources, file
+
+
+def test_the_site_is_small(site):
+    assert sum(path.stat().st_size for path in site.rglob("*") if path.is_file()) < 20_000_000
 
 
 def test_formulas_are_drawn_by_the_browser_itself(site):

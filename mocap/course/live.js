@@ -1,0 +1,440 @@
+// Small experiments of the course that run on its pages, without Python: sliders, what they compute, and a drawing.
+// `live_experiments.py` computes the same in Python, and fills the pages with data.
+
+(() => {
+  /**
+   * @typedef {number[]} Vector
+   * @typedef {Record<string, number>} Values
+   *
+   * An experiment: what is computed from the values of its controls, and how it is drawn.
+   * @typedef {{
+   *   compute: (values: Values, data: any) => Record<string, any>,
+   *   draw: (sheet: Sheet, found: Record<string, any>, data: any) => void,
+   * }} Live
+   */
+
+  const BLUE = "#0072b2";
+  const ORANGE = "#d55e00";
+  const GREEN = "#009e73";
+  const GREY = "#8a8f98";
+  const SIZE = [640, 330]; // of a drawing, in its units
+  const BALL = 120; // radius of a ball, in these units
+  const WAYS = ["slerp", "quaternions on a line", "Euler angles"];
+  const COLOURS = [BLUE, ORANGE, GREEN];
+
+  // ---- rotations, quaternions (w, x, y, z) ----
+
+  /** @param {number} degrees */
+  const radians = (degrees) => (degrees * Math.PI) / 180;
+  /** @param {number} angle */
+  const degrees = (angle) => (angle * 180) / Math.PI;
+
+  /**
+   * @param {Vector} p
+   * @param {Vector} q
+   */
+  const times = ([w, x, y, z], [s, u, v, t]) => [
+    w * s - x * u - y * v - z * t,
+    w * u + x * s + y * t - z * v,
+    w * v - x * t + y * s + z * u,
+    w * t + x * v - y * u + z * s,
+  ];
+
+  /**
+   * The rotation about an axis of length 1.
+   * @param {Vector} axis
+   * @param {number} angle radians
+   */
+  const about = (axis, angle) => [Math.cos(angle / 2), ...axis.map((value) => value * Math.sin(angle / 2))];
+
+  /**
+   * @param {Vector} q
+   * @param {Vector} v
+   */
+  const rotated = (q, v) => times(times(q, [0, ...v]), [q[0], -q[1], -q[2], -q[3]]).slice(1);
+
+  /**
+   * The angle between two rotations, radians.
+   * @param {Vector} p
+   * @param {Vector} q
+   */
+  function angleBetween(p, q) {
+    const [w, ...u] = times([p[0], -p[1], -p[2], -p[3]], q);
+    return 2 * Math.atan2(Math.hypot(...u), Math.abs(w));
+  }
+
+  /**
+   * The rotation Rz Rx Ry of Euler angles, radians.
+   * @param {Vector} angles
+   */
+  const fromEuler = ([z, x, y]) =>
+    times(times(about([0, 0, 1], z), about([1, 0, 0], x)), about([0, 1, 0], y));
+
+  /**
+   * Spherical linear interpolation, along the shorter arc.
+   * @param {Vector} p
+   * @param {Vector} q
+   * @param {number} fraction
+   */
+  function slerp(p, q, fraction) {
+    const cosine = p.reduce((sum, value, k) => sum + value * q[k], 0);
+    const angle = Math.acos(Math.min(1, Math.abs(cosine)));
+    const sine = Math.sin(angle) || 1;
+    const [a, b] =
+      angle < 1e-9
+        ? [1 - fraction, fraction]
+        : [1 - fraction, fraction].map((u) => Math.sin(u * angle) / sine);
+    return p.map((value, k) => a * value + (cosine < 0 ? -b : b) * q[k]);
+  }
+
+  // ---- drawing ----
+
+  /** A drawing on a canvas, in units of which it is 640 wide. */
+  class Sheet {
+    /** @param {HTMLCanvasElement} canvas */
+    constructor(canvas) {
+      const pen = canvas.getContext("2d");
+      if (!pen) throw new Error("The browser draws on no canvas.");
+      const sharp = Math.max(1, (canvas.clientWidth * devicePixelRatio) / SIZE[0]);
+      canvas.width = SIZE[0] * sharp;
+      canvas.height = SIZE[1] * sharp;
+      pen.scale(sharp, sharp);
+      pen.lineCap = "round";
+      pen.lineJoin = "round";
+      // Letters are 13 pixels high on the page, also where it is narrow.
+      this.letters = Math.max(13, (13 * SIZE[0]) / (canvas.clientWidth || SIZE[0]));
+      pen.font = `${this.letters}px system-ui, sans-serif`;
+      this.ink = getComputedStyle(canvas).color;
+      this.pen = pen;
+    }
+
+    /**
+     * @param {Vector[]} points
+     * @param {string} colour
+     * @param {number} width
+     * @param {number[]} dashes
+     */
+    line(points, colour, width = 2, dashes = []) {
+      const { pen } = this;
+      pen.beginPath();
+      for (const [x, y] of points) pen.lineTo(x, y);
+      pen.strokeStyle = colour;
+      pen.lineWidth = width;
+      pen.setLineDash(dashes);
+      pen.stroke();
+      pen.setLineDash([]);
+    }
+
+    /**
+     * @param {Vector} centre
+     * @param {number} radius
+     * @param {string} colour
+     */
+    dot([x, y], radius, colour) {
+      const { pen } = this;
+      pen.beginPath();
+      pen.arc(x, y, radius, 0, 2 * Math.PI);
+      pen.fillStyle = colour;
+      pen.fill();
+    }
+
+    /**
+     * @param {Vector} centre
+     * @param {number} radius
+     * @param {string} colour
+     */
+    circle([x, y], radius, colour) {
+      const points = Array.from({ length: 73 }, (_, k) => radians(5 * k)).map((a) => [
+        x + radius * Math.cos(a),
+        y + radius * Math.sin(a),
+      ]);
+      this.line(points, colour, 1.2, [3, 5]);
+    }
+
+    /**
+     * @param {string} text
+     * @param {Vector} position
+     * @param {CanvasTextAlign} align
+     * @param {string} colour
+     */
+    text(text, [x, y], align = "left", colour = this.ink) {
+      this.pen.textAlign = align;
+      this.pen.fillStyle = colour;
+      this.pen.fillText(text, x, y);
+    }
+
+    /**
+     * Axes with a number at each end; return the map of a point into them.
+     * @param {Vector} box left, top, width and height
+     * @param {Vector} ranges x from, to, y from, to
+     * @param {string[]} labels
+     * @returns {(x: number, y: number) => Vector}
+     */
+    axes([left, top, wide, high], [x0, x1, y0, y1], [across, up]) {
+      this.line(
+        [
+          [left, top],
+          [left, top + high],
+          [left + wide, top + high],
+        ],
+        this.ink,
+        1.2,
+      );
+      const below = top + high + 1.3 * this.letters;
+      this.text(String(x0), [left, below], "center");
+      this.text(String(x1), [left + wide, below], "center");
+      this.text(across, [left + wide / 2, below], "center");
+      this.text(String(y0), [left - 6, top + high], "right");
+      this.text(String(y1), [left - 6, top + 5], "right");
+      this.text(up, [left, top - 10]);
+      return (x, y) => [left + (wide * (x - x0)) / (x1 - x0), top + high - (high * (y - y0)) / (y1 - y0)];
+    }
+  }
+
+  /**
+   * A view of points [x, y, z], y up, from an angle: pixels around a centre.
+   * @param {Vector} centre
+   * @param {number} scale
+   * @param {{ yaw?: number, pitch?: number }} angles
+   * @returns {(point: Vector) => Vector}
+   */
+  function viewOf([cx, cy], scale, { yaw = 0.6, pitch = 0.25 } = {}) {
+    return ([x, y, z]) => {
+      const right = Math.cos(yaw) * x - Math.sin(yaw) * z;
+      const depth = Math.sin(yaw) * x + Math.cos(yaw) * z;
+      return [cx + scale * right, cy - scale * (Math.cos(pitch) * y - Math.sin(pitch) * depth)];
+    };
+  }
+
+  /**
+   * Draw a body by its bones.
+   * @param {Sheet} sheet
+   * @param {(point: Vector) => Vector} see
+   * @param {{ positions: Vector[], parents: number[] }} body
+   * @param {{ rotation: Vector, root: Vector, colour: string, width?: number }} pose
+   */
+  function drawBody(sheet, see, { positions, parents }, { rotation, root, colour, width = 4 }) {
+    const moved = positions.map((position) => rotated(rotation, position).map((value, c) => value + root[c]));
+    parents.forEach((parent, joint) => {
+      if (parent >= 0) sheet.line([see(moved[parent]), see(moved[joint])], colour, width);
+    });
+  }
+
+  // ---- the experiments ----
+
+  /** @type {Record<string, Live>} */
+  const EXPERIMENTS = {
+    "03b-angles:lean": {
+      compute({ tip, towards, facing }) {
+        const axis = rotated(about([0, 1, 0], radians(towards)), [1, 0, 0]);
+        const root = times(about([0, 1, 0], radians(facing)), about(axis, radians(tip)));
+        const [w, x, y, z] = root;
+        const heading = Math.atan2(2 * w * y, w * w - y * y);
+        const homework = Math.atan2(2 * (w * y - x * z), 1 - 2 * (y * y + z * z));
+        return { root, heading: degrees(heading), homework: degrees(homework) };
+      },
+      draw(sheet, { root, heading, homework }, data) {
+        const see = viewOf([170, 250], 105, { yaw: 0.5 });
+        sheet.line(
+          [
+            [-1, 0, -1],
+            [1, 0, -1],
+            [1, 0, 1],
+            [-1, 0, 1],
+            [-1, 0, -1],
+          ].map(see),
+          GREY,
+          1,
+        );
+        drawBody(sheet, see, data, { rotation: root, root: [0, 1, 0], colour: sheet.ink });
+        const centre = [480, 185];
+        sheet.circle(centre, BALL, GREY);
+        ["0°", "90°", "±180°", "−90°"].forEach((label, k) => {
+          const angle = radians(90 * k);
+          const reach = BALL + 16;
+          const at = [centre[0] - reach * Math.sin(angle), centre[1] - reach * Math.cos(angle) + 5];
+          sheet.text(label, at, "center");
+        });
+        [heading, homework].forEach((angle, k) => {
+          const end = [Math.sin(radians(angle)), Math.cos(radians(angle))].map((value) => -BALL * value);
+          const name = ["heading", "homework_heading"][k];
+          sheet.line([centre, [centre[0] + end[0], centre[1] + end[1]]], COLOURS[k], k ? 3 : 9);
+          sheet.text(
+            `${name}: ${Math.round(angle)}°`.replace("-", "−"),
+            [330 + 130 * k, 22],
+            "left",
+            COLOURS[k],
+          );
+        });
+      },
+    },
+    "03b-angles:gimbals": {
+      compute({ z, x, y }) {
+        const angles = [z, x, y].map(radians);
+        const ghost = fromEuler([0, angles[1], 0]);
+        const solid = fromEuler(angles);
+        const carried = [
+          [0, 0, 1],
+          rotated(about([0, 0, 1], angles[0]), [1, 0, 0]),
+          rotated(times(about([0, 0, 1], angles[0]), about([1, 0, 0], angles[1])), [0, 1, 0]),
+        ];
+        return { ghost, solid, carried, turned: degrees(angleBetween(ghost, solid)) };
+      },
+      draw(sheet, { ghost, solid, carried, turned }, data) {
+        const see = viewOf([250, 270], 110);
+        const root = [0, 1.1, 0];
+        drawBody(sheet, see, data, { rotation: ghost, root, colour: GREY, width: 2 });
+        drawBody(sheet, see, data, { rotation: solid, root, colour: sheet.ink });
+        ["z, fixed", "x, carried by z", "y, carried by both"].forEach((name, k) => {
+          const ends = [-0.9, 0.9].map((far) =>
+            carried[k].map((/** @type {number} */ v, /** @type {number} */ c) => root[c] + far * v),
+          );
+          sheet.line(ends.map(see), COLOURS[k], 3);
+          sheet.text(name, [460, 40 + 24 * k], "left", COLOURS[k]);
+        });
+        sheet.text(`rotated by ${Math.round(turned)}°`, [460, 130]);
+      },
+    },
+    "04-blending:ways": {
+      compute({ fraction }, { first, last }) {
+        const start = fromEuler(first);
+        const end = fromEuler(last);
+        const line = start.map((value, k) => (1 - fraction) * value + fraction * end[k]);
+        const length = Math.hypot(...line);
+        const euler = first.map(
+          (/** @type {number} */ a, /** @type {number} */ k) => (1 - fraction) * a + fraction * last[k],
+        );
+        const ways = [slerp(start, end, fraction), line.map((value) => value / length), fromEuler(euler)];
+        const turned = ways.map((way) => degrees(angleBetween(start, way)));
+        return { tips: ways.map((way) => rotated(way, [0, 0, 1])), turned, fraction };
+      },
+      draw(sheet, { tips, turned, fraction }, data) {
+        const see = viewOf([160, 170], BALL, { yaw: 0.4 });
+        const put = sheet.axes(
+          [370, 70, 240, 200],
+          [0, 1, 0, 180],
+          ["fraction", "rotated from the start (°)"],
+        );
+        sheet.circle([160, 170], BALL, GREY);
+        const { compute } = EXPERIMENTS["04-blending:ways"];
+        const paths = Array.from({ length: 51 }, (_, k) => compute({ fraction: k / 50 }, data));
+        WAYS.forEach((name, n) => {
+          const width = n ? 2 : 5;
+          sheet.line(
+            paths.map((path) => see(path.tips[n])),
+            COLOURS[n],
+            width,
+          );
+          sheet.line(
+            paths.map((path) => put(path.fraction, path.turned[n])),
+            COLOURS[n],
+            width,
+          );
+          sheet.dot(see(tips[n]), 6, COLOURS[n]);
+          sheet.dot(put(fraction, turned[n]), 6, COLOURS[n]);
+          sheet.text(`${name}: ${Math.round(turned[n])}°`, [330, 14 + 18 * n], "left", COLOURS[n]);
+        });
+      },
+    },
+    "04b-feet:leg": {
+      compute({ ahead, height }, { thigh, shank, hip }) {
+        const away = [ahead, height - hip];
+        const far = Math.hypot(...away);
+        const distance = Math.min(far, thigh + shank);
+        const along = away.map((value) => value / far);
+        const cosine = (distance ** 2 - thigh ** 2 - shank ** 2) / (2 * thigh * shank);
+        const bend = Math.acos(Math.max(-1, Math.min(cosine, 1)));
+        const forward = [1, 0.3];
+        const dot = forward[0] * along[0] + forward[1] * along[1];
+        const side = forward.map((value, k) => value - dot * along[k]);
+        const across = side.map((value) => value / Math.hypot(...side));
+        const share = thigh / distance;
+        const knee = along.map(
+          (value, k) =>
+            share * ((thigh + shank * Math.cos(bend)) * value + shank * Math.sin(bend) * across[k]),
+        );
+        const lift = (/** @type {Vector} */ [z, y]) => [z, hip + y];
+        const ankle = lift(along.map((value) => distance * value));
+        return { knee: lift(knee), ankle, bend: degrees(bend), reached: far <= thigh + shank + 1e-9 };
+      },
+      draw(sheet, { knee, ankle, bend, reached, values }, { thigh, shank, hip }) {
+        const put = sheet.axes([150, 50, 330, 236], [-0.7, 0.9, -0.1, 1.05], ["z (m)", "y (m)"]);
+        const scale = 330 / 1.6;
+        sheet.circle(put(0, hip), scale * (thigh + shank), GREY);
+        sheet.line(
+          [[0, hip], knee, ankle].map(([z, y]) => put(z, y)),
+          BLUE,
+          6,
+        );
+        for (const [z, y] of [[0, hip], knee, ankle]) sheet.dot(put(z, y), 7, BLUE);
+        const [x, y] = put(values.ahead, values.height);
+        sheet.line(
+          [
+            [x - 8, y - 8],
+            [x + 8, y + 8],
+          ],
+          sheet.ink,
+          3,
+        );
+        sheet.line(
+          [
+            [x - 8, y + 8],
+            [x + 8, y - 8],
+          ],
+          sheet.ink,
+          3,
+        );
+        const words = `knee bent by ${Math.round(bend)}°${reached ? "" : ", out of reach"}`;
+        sheet.text(words, [315, 22], "center");
+      },
+    },
+  };
+
+  // ---- on a page ----
+
+  /**
+   * Put sliders and a drawing in the place of a still picture.
+   * @param {HTMLElement} place
+   */
+  function begin(place) {
+    const experiment = EXPERIMENTS[place.dataset.live ?? ""];
+    const packed = place.querySelector("script");
+    if (!experiment || !packed) return;
+    /** @type {{ controls: Record<string, number[]>, data: any, alt: string }} */
+    const { controls, data, alt } = JSON.parse(packed.text);
+    const canvas = document.createElement("canvas");
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", alt);
+    /** @type {Values} */
+    const values = {};
+    const show = () => {
+      const found = { ...experiment.compute(values, data), values };
+      experiment.draw(new Sheet(canvas), found, data);
+    };
+    const rows = Object.entries(controls).map(([name, [low, high, step, initial]]) => {
+      const label = document.createElement("label");
+      const output = document.createElement("output");
+      const slider = document.createElement("input");
+      Object.assign(slider, { type: "range", min: String(low), max: String(high), step: String(step) });
+      slider.value = String(initial);
+      values[name] = initial;
+      output.textContent = slider.value;
+      slider.addEventListener("input", () => {
+        values[name] = Number(slider.value);
+        output.textContent = slider.value;
+        show();
+      });
+      label.append(name, slider, output);
+      return label;
+    });
+    place.querySelector(".mocap-still")?.remove();
+    place.append(...rows, canvas);
+    addEventListener("resize", show);
+    show();
+  }
+
+  for (const place of document.querySelectorAll("[data-live]")) {
+    if (place instanceof HTMLElement) begin(place);
+  }
+  Object.assign(window, { liveExperiments: EXPERIMENTS });
+})();
