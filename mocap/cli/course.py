@@ -1,9 +1,9 @@
 """The commands `mocap course`, for those who teach from the notebooks or write them, and `mocap lab`."""
 
+import functools
 import signal
 import sys
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -156,19 +156,23 @@ def mark(
     points: Points = None,
     roster: Annotated[Path | None, "the .csv file of students, exported from Moodle or Canvas"] = None,
     feedback: Annotated[Path | None, "folder to write to, with an HTML page for each student"] = None,
+    partial: Annotated[bool, "give a wrong function the fraction of its points on which it is right"] = False,
     jobs: Annotated[int, number(1, 64, int), "number of notebooks that are marked at a time"] = 1,
 ) -> int:
     """Mark a folder of submitted notebooks, and write .csv files.
 
-    There are four .csv files: OUT has a line for each exercise, OUT-table has a line for each student, and
-    OUT-moodle and OUT-canvas have the columns that Moodle and Canvas import. The column "note" of OUT is for
-    the teacher alone: it names what a solution uses by which an answer could have been taken over, and
-    changes no mark. The last line accounts for all that was handed in, and for students of the roster who
-    handed in nothing. The exit status is 2 if a person has to look at something. Each notebook runs in its
-    own process, with a new home folder, few environment variables, and limits of time, memory, processes and
-    files. The first line of the output reports the isolation on this system: whether a notebook can read or
-    write files outside Python and its home folder, and whether it has a network. If you do not trust the
-    submissions, first read "Hand out, and mark" in notebooks/README.md.
+    There are five .csv files: OUT has a line for each exercise, OUT-table has a line for each student,
+    OUT-moodle and OUT-canvas have the columns that Moodle and Canvas import, and OUT-written has the answers
+    in words, for a person. The page OUT-class.html shows which exercises the class solved, and the most
+    frequent mistakes. The last three columns of OUT are for the teacher alone and change no mark: a note
+    names what a solution uses by which an answer could have been taken over, and the other two say whether
+    a function is the same as the published solution, or as those of other students. The last line accounts
+    for all that was handed in, and for students of the roster who handed in nothing. The exit status is 2
+    if a person has to look at something. Each notebook runs in its own process, with a new home folder,
+    few environment variables, and limits of time, memory, processes and files. The first line of the
+    output reports the isolation on this system: whether a notebook can read or write files outside Python
+    and its home folder, and whether it has a network. If you do not trust the submissions, first read
+    "Hand out, and mark" in notebooks/README.md.
 
     Parameters
     ----------
@@ -185,15 +189,20 @@ def mark(
     require_writable(out)
     marks: list[marking.grades.Mark] = []
     grades: list[marking.grades.Grade] = []
-    for marks_of_notebook in marking.mark(folder, bar("marking"), partial(print, file=sys.stderr), jobs):
+    tell = functools.partial(print, file=sys.stderr)
+    for marks_of_notebook in marking.mark(folder, bar("marking"), tell, jobs, partial_points=partial):
         marks += marks_of_notebook
         grades = marking.grades.grade(marks, worth, students)
         for end, text in marking.grades.tables(marks, grades, worth, out.stem).items():
             write_file(out.with_stem(f"{out.stem}{end}"), text)  # before the next notebook runs
+    written = marking.grades.written_table(marking.written_answers(folder))
+    write_file(out.with_stem(f"{out.stem}-written"), written)
+    page = marking.class_page.class_page(grades, out.stem)
+    write_file(out.with_name(f"{out.stem}-class.html"), page)
     if feedback:
         print(f"wrote {len(marking.grades.write_feedback(grades, worth, feedback))} pages to {feedback}")
     right = sum(mark.right for mark in marks)
-    print(f"wrote {out} and three more: {right} of {sum(bool(mark.exercise) for mark in marks)} are right")
+    print(f"wrote {out} and five more: {right} of {sum(bool(mark.exercise) for mark in marks)} are right")
     said, needs_person = marking.grades.account(marks, grades)
     print(said, file=sys.stderr)
     return 2 if needs_person else 0

@@ -17,18 +17,19 @@ Reading order
 8. `seam_trials`: walks by a matrix, and blends of matches drawn at random, measured
 9. `marked_values`: numbers in prose, and the expressions that compute them
 10. `notebooks`: read a notebook, find its cells by their tags and the names that they use, run it
-11. `opening`: the course in JupyterLab, and in JupyterLite
-12. `student_wheel`: the package as a file for students, and the requirement that installs it
-13. `handout`: copies without solutions
-14. `formulas`: formulas as MathML
-15. `recording`: positions of an experiment, as pictures for pages without Python
-16. `live_experiments`: small experiments that run on pages without Python
-17. `site`: the course as HTML pages, beside the reference pages of the package
-18. `conf`: how Sphinx makes these pages
-19. `diagrams`: ideas drawn step by step
-20. `lab`: what students wrote is used, and what they thought is kept
-21. `marking`: marks for notebooks handed in, whose code runs sealed
-22. `teaching`: slides and films that are made from the notebooks
+11. `written`: answers in words, which a person reads
+12. `opening`: the course in JupyterLab, and in JupyterLite
+13. `student_wheel`: the package as a file for students, and the requirement that installs it
+14. `handout`: copies without solutions
+15. `formulas`: formulas as MathML
+16. `recording`: positions of an experiment, as pictures for pages without Python
+17. `live_experiments`: small experiments that run on pages without Python
+18. `site`: the course as HTML pages, beside the reference pages of the package
+19. `conf`: how Sphinx makes these pages
+20. `diagrams`: ideas drawn step by step
+21. `lab`: what students wrote is used, and what they thought is kept
+22. `marking`: marks for notebooks handed in, whose code runs sealed
+23. `teaching`: slides and films that are made from the notebooks
 
 References
 ----------

@@ -236,6 +236,32 @@ class Check:
             wrong = _raised(error, function)
         return Verdict(False, f"{self.name}: {wrong}")
 
+    def passed(self, function: Function, seed: int = 0) -> float:
+        """Return the fraction of the random inputs of `verdict` on which a function is right.
+
+        An input on which it raises an error, or that it changes, counts as wrong; all do if it is too slow.
+        """
+        rng = np.random.default_rng(seed)
+        right = 0
+        try:
+            with guarded(self.seconds):
+                for _ in range(self.trials):
+                    arguments = self.draw(rng)
+                    wanted = self.truth(*copy.deepcopy(arguments))
+                    right += self._passes(function, arguments, wanted)
+        except Overdue:
+            return 0.0
+        return right / self.trials
+
+    def _passes(self, function: Function, arguments: tuple[Any, ...], wanted: Any) -> bool:  # noqa: ANN401
+        """Return whether a function is right on an input, and does not change it."""
+        used = copy.deepcopy(arguments)
+        try:
+            answer = function(*used)
+        except (Exception, SystemExit):
+            return False
+        return self._is_same(answer, wanted) and not any(map(altered, arguments, used))
+
     def _try(self, function: Function, trials: list[Trial], seed: int) -> str:
         """Call a function on random inputs, until it changes one; say so if it did."""
         rng = np.random.default_rng(seed)

@@ -12,6 +12,7 @@ from mocap._shared.atomic import make_folder, require_folder, write_file
 from mocap.course.notebooks import library, notebooks_in, read, solution, tagged
 from mocap.course.opening import stored
 from mocap.course.student_wheel import EXTRA, requirement_from, students_wheel
+from mocap.course.written import KIND, TEMPLATE, questions_of
 from mocap.errors import MocapError
 
 PAGES = ("GLOSSARY.md", "FORMULAS.md")  # the README is for teachers
@@ -72,27 +73,29 @@ def hand_out(
     shown = [(file, read(file)) for file in notebooks or notebooks_in(stored())]
     require_folder(out)
     need, extras = _installed_from(origin)
-    copies = []
     files: dict[Path, str | bytes] = {}  # what is to be written, and where
+    copies = []
     for file, notebook in shown:
         folder = out / "source" / file.stem if nbgrader else out
-        solutions = {solved: solution(cell) for solved, cell in tagged(notebook, "solution")}
-        copied = _for_students(notebook)
-        if nbgrader:
-            _prepare(copied, solutions, points or {})
+        copied = _for_nbgrader(notebook, points or {}) if nbgrader else _for_students(notebook)
         copied.cells.insert(0, library().v4.new_code_cell(INSTALL.format(need), id="install"))
         files[folder / file.name] = _text(copied)
         files |= {folder / name: content for name, content in extras.items()}
         copies.append(folder / file.name)
     if nbgrader:
         files[out / "nbgrader_config.py"] = CONFIG
+    _write_new(files)
+    return copies
+
+
+def _write_new(files: Mapping[Path, str | bytes]) -> None:
+    """Write files, none of which exists."""
     for path in files:
         if path.exists():
             raise MocapError(f"{path} exists already; choose another folder.")
     for path, content in files.items():
         make_folder(path.parent)
         write_file(path, content)
-    return copies
 
 
 def _installed_from(origin: str) -> tuple[str, dict[str, str | bytes]]:
@@ -108,14 +111,29 @@ def _installed_from(origin: str) -> tuple[str, dict[str, str | bytes]]:
 
 
 def _for_students(notebook: Any) -> Any:  # noqa: ANN401
-    """Remove the solutions from a notebook, and the outputs that tell them."""
+    """Remove the solutions from a notebook and the outputs that tell them, and ask for answers in words."""
     cells_with_solutions = [cell for _, cell in tagged(notebook, "solution")]
     notebook.cells = [cell for cell in notebook.cells if cell not in cells_with_solutions]
     for cell in notebook.cells:
         if cell.cell_type == "code" and TELLING.match(cell.source):
             cell.outputs = []
             cell.execution_count = None
+    for name, question in list(questions_of(notebook)):
+        tags = [f"{KIND}:{name}"]
+        answer = library().v4.new_markdown_cell(TEMPLATE, id=f"{KIND}-{name}", metadata={"tags": tags})
+        notebook.cells.insert(notebook.cells.index(question) + 1, answer)
     return notebook
+
+
+def _for_nbgrader(notebook: Any, points: Mapping[str, float]) -> Any:  # noqa: ANN401
+    """Mark what nbgrader removes, locks and gives points for; a person gives those of answers in words."""
+    solutions = {name: solution(cell) for name, cell in tagged(notebook, "solution")}
+    copied = _for_students(notebook)
+    _prepare(copied, solutions, points)
+    for name, cell in tagged(copied, KIND):
+        worth = points.get(KIND, 0)
+        cell.metadata.nbgrader = _role(f"{KIND}-{name}", solution=True, grade=True, points=worth)
+    return copied
 
 
 def _text(notebook: Any) -> str:  # noqa: ANN401

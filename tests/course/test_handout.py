@@ -15,6 +15,7 @@ from mocap.course import opening
 from mocap.course.handout import PAGES, TELLING, WHEEL, _merged, hand_out
 from mocap.course.notebooks import notebooks_in, read, solution, tagged
 from mocap.course.opening import stored
+from mocap.course.written import questions_of
 from tests.refusals import refused
 
 COURSE = {file.stem: read(file) for file in notebooks_in(stored())}
@@ -33,7 +34,8 @@ def test_a_handout_has_everything_but_solutions_hints_and_outcomes(copies):
         nbformat.validate(notebook)
         assert list(tagged(notebook, "solution")) == []
         solutions = len(list(tagged(whole, "solution")))
-        assert len(notebook.cells) == 1 + len(whole.cells) - solutions
+        words = len(list(questions_of(whole)))
+        assert len(notebook.cells) == 1 + len(whole.cells) - solutions + words
         assert "<summary>Solution" not in copy.read_text("utf-8")
         assert f"%pip install -q {INSTALLS}" in notebook.cells[0].source
         outputs = json.dumps([cell.get("outputs") for cell in notebook.cells])

@@ -18,8 +18,10 @@ Reading order
 10. `keeper`: the start of that process, and the end of all that it started
 11. `sealed`: the marker's side: start, ask, stop in time
 12. `rosters`: who the students are
-13. `grades`: points, tables for spreadsheets, Moodle and Canvas, the closing account, and feedback
-14. `marks`: judge each exercise of each notebook
+13. `likeness`: functions that are the published solution, or another student's
+14. `grades`: points, tables for spreadsheets, Moodle and Canvas, the closing account, and feedback
+15. `class_page`: what the class misunderstood
+16. `marks`: judge each exercise of each notebook
 """
 
 from mocap._shared import faces

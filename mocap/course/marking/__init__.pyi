@@ -1,4 +1,6 @@
+from . import class_page as class_page
 from . import grades as grades
 from . import rosters as rosters
 from . import walls as walls
 from .marks import mark as mark
+from .marks import written_answers as written_answers

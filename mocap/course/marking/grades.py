@@ -15,7 +15,18 @@ from mocap._shared.atomic import make_folder, write_file
 from mocap._shared.records import NamedTuple
 from mocap.course.checks import all_checks
 from mocap.course.marking.hand_ins import Student, sent_by
-from mocap.course.marking.rosters import CANVAS, MOODLE, Roster, Row, lines_of, match, name_of, read_table
+from mocap.course.marking.rosters import (
+    CANVAS,
+    MOODLE,
+    Roster,
+    Row,
+    lateness,
+    lines_of,
+    match,
+    name_of,
+    read_table,
+)
+from mocap.course.written import KIND, MOST_LETTERS, Answer
 from mocap.errors import MocapError, printable
 
 LONGEST = 300  # characters of a cell
@@ -46,6 +57,9 @@ class Mark(NamedTuple):
     said : what the check said, for the student.
     note : for the teacher alone.
     problem : one of `PROBLEMS`, or "".
+    passed : the fraction of the random inputs on which a wrong answer is right, if that earns points.
+    published : whether it is the published solution.
+    tree : the syntax tree of the function as text, or "", by which it is compared with those of others.
 
     Examples
     --------
@@ -59,6 +73,15 @@ class Mark(NamedTuple):
     said: str
     note: str = ""
     problem: str = ""
+    passed: float = 0.0
+    published: bool = False
+    tree: str = ""
+
+    def earned(self, points: float) -> float:
+        """Return the points that it earns, of those of the exercise."""
+        if self.right:
+            return points
+        return round(points * self.passed, 2) if self.passed else 0
 
 
 class Grade(NamedTuple):
@@ -71,6 +94,7 @@ class Grade(NamedTuple):
     problem : one of `PROBLEMS`, or "".
     best : the best mark of each exercise; at "" what was said of a notebook as a whole.
     points : of all exercises.
+    late : how late it was handed in, as the learning platform says; "" if it was in time or does not say.
     """
 
     sent: str
@@ -78,6 +102,7 @@ class Grade(NamedTuple):
     problem: str
     best: Mapping[str, Mark]
     points: float
+    late: str = ""
 
 
 def read_points(file: Path | None) -> dict[str, float]:
@@ -94,7 +119,8 @@ def read_points(file: Path | None) -> dict[str, float]:
     """
     table: dict[str, float] = read_table(file, tomllib.loads) if file else {}
     for name, points in table.items():
-        if name not in all_checks() or type(points) not in (int, float) or not 0 <= points < 1e6:
+        is_known = name in all_checks() or name == KIND
+        if not is_known or type(points) not in (int, float) or not 0 <= points < 1e6:
             raise MocapError(
                 f"{file}: '{name:.40}' is no exercise, or {f'{points}':.40} no number of points."
             )
@@ -124,7 +150,8 @@ def grade(marks: Iterable[Mark], points: Points, roster: Roster = ()) -> list[Gr
     for mark in marks:
         best = all_best.setdefault(sent_by(mark.handed_in), {})
         exercises[mark.exercise] = None
-        if mark.right or mark.exercise not in best:
+        previous = best.get(mark.exercise)
+        if previous is None or (mark.right, mark.passed) > (previous.right, previous.passed):
             best[mark.exercise] = mark
     rows = match(all_best, roster)
     grades = [_grade_of(student, best, rows[student], points) for student, best in all_best.items()]
@@ -144,9 +171,10 @@ def _grade_of(student: Student, best: Mapping[str, Mark], row: Row | None, point
     columns["SIS Login ID"] = "" if number else name
     columns["Email address"] = name if "@" in name else ""
     problem = AMBIGUOUS if row is None else "" if row else NOT_LISTED
-    total = sum(points.get(exercise, 1) for exercise, mark in best.items() if mark.right)
+    total = sum(mark.earned(points.get(exercise, 1)) for exercise, mark in best.items() if exercise)
     sent = next(iter(best.values())).handed_in.split("/")[0]
-    return Grade(sent, columns | {**(row or {})}, problem, best, round(total, 4))
+    late = lateness(sent, row or {})
+    return Grade(sent, columns | {**(row or {})}, problem, best, round(total, 4), late)
 
 
 def tables(marks: Sequence[Mark], grades: Sequence[Grade], points: Points, title: str = "") -> dict[str, str]:
@@ -167,22 +195,45 @@ def tables(marks: Sequence[Mark], grades: Sequence[Grade], points: Points, title
     >>> marks = [Mark("=ada/00.ipynb", "speed", True, "✓ speed: right on 40 random inputs.")]
     >>> texts = tables(marks, grade(marks, {"speed": 2}), {"speed": 2})
     >>> print(texts[""] + texts["-table"])
-    handed in,exercise,right,said,note
-    '=ada/00.ipynb,speed,1,✓ speed: right on 40 random inputs.,
-    student,speed,points
-    '=ada,2,2
+    handed in,exercise,right,said,note,same as the published solution,same as
+    '=ada/00.ipynb,speed,1,✓ speed: right on 40 random inputs.,,,
+    student,speed,points,late
+    '=ada,2,2,
     """
     worth = {mark.exercise: points.get(mark.exercise, 1) for mark in marks if mark.exercise}
-    texts = {"": _text(("handed in", "exercise", "right", "said", "note"), map(_line, marks))}
-    texts["-table"] = _text(("student", *worth, "points"), [_points_of(student, worth) for student in grades])
+    header = ("handed in", "exercise", "right", "said", "note", "same as the published solution", "same as")
+    authors = _authors(marks)
+    texts = {"": _text(header, [_line(mark, authors) for mark in marks])}
+    rows = [(*_points_of(student, worth), student.late) for student in grades]
+    texts["-table"] = _text(("student", *worth, "points", "late"), rows)
     texts["-moodle"] = _text((*MOODLE, "Grade"), [_line_of(student, MOODLE) for student in grades])
     possible = ("Points Possible", *[""] * (len(CANVAS) - 1), round(sum(worth.values()), 4))
     texts["-canvas"] = _text((*CANVAS, title), [possible, *(_line_of(student, CANVAS) for student in grades)])
     return texts
 
 
-def _line(mark: Mark) -> tuple[object, ...]:
-    return mark.handed_in, mark.exercise, int(mark.right), mark.said, mark.note
+Authors = Mapping[tuple[str, str], Sequence[str]]
+"""The students who wrote a function, by the exercise and its syntax tree."""
+
+
+def _authors(marks: Iterable[Mark]) -> Authors:
+    """List who wrote each function."""
+    authors: dict[tuple[str, str], list[str]] = {}
+    for mark in (mark for mark in marks if mark.tree):
+        name, _ = sent_by(mark.handed_in)
+        names = authors.setdefault((mark.exercise, mark.tree), [])
+        if name not in names:
+            names.append(name)
+    return authors
+
+
+def _line(mark: Mark, authors: Authors) -> tuple[object, ...]:
+    """Return a line of the first table."""
+    name, _ = sent_by(mark.handed_in)
+    copies = [author for author in authors.get((mark.exercise, mark.tree), ()) if author != name]
+    published = 1 if mark.published else ""
+    judged = (mark.handed_in, mark.exercise, int(mark.right), mark.said, mark.note)
+    return *judged, published, ", ".join(copies)
 
 
 def _points_of(student: Grade, worth: Points) -> tuple[object, ...]:
@@ -190,8 +241,7 @@ def _points_of(student: Grade, worth: Points) -> tuple[object, ...]:
     points: list[object] = []
     for name, possible in worth.items():
         mark = student.best.get(name)
-        earned = possible if mark and mark.right else 0
-        points.append(earned if mark else "")
+        points.append(mark.earned(possible) if mark else "")
     return student.columns["Student"], *points, student.points
 
 
@@ -206,13 +256,23 @@ def _text(header: Sequence[object], rows: Iterable[Sequence[object]]) -> str:
     return text.getvalue()
 
 
-def _cell(value: object) -> object:
+def written_table(answers: Iterable[Answer]) -> str:
+    """Write answers in words as the text of a .csv file, with a column for the points that a person gives."""
+    header = ("handed in", "question", "answer", "points")
+    rows = [(answer.handed_in, answer.question, _cell(answer.text, MOST_LETTERS), "") for answer in answers]
+    text = io.StringIO()
+    table = [(*map(_cell, row[:2]), *row[2:]) for row in rows]
+    csv.writer(text, lineterminator="\n").writerows([header, *table])
+    return text.getvalue()
+
+
+def _cell(value: object, longest: int = LONGEST) -> object:
     """Make a text safe: one line of visible characters, and no formula."""
     if not isinstance(value, str):
         return value
-    line = "".join(sign if sign.isprintable() else " " for sign in value[: 10 * LONGEST])
+    line = "".join(sign if sign.isprintable() else " " for sign in value[: 10 * longest])
     line = " ".join(line.split())
-    line = f"{line[: LONGEST - 1]}…" if len(line) > LONGEST else line
+    line = f"{line[: longest - 1]}…" if len(line) > longest else line
     return f"'{line}" if line.startswith(FORMULA) or value.startswith(FORMULA) else line
 
 
@@ -260,7 +320,7 @@ def _page(student: Grade, points: Points) -> str:
     worth = {name: points.get(name, 1) if name else 0 for name in student.best}
     parts = [f"<p><b>{student.points:g} of {sum(worth.values()):g}</b>All points</p>"]
     for name, mark in student.best.items():
-        earned = worth[name] if mark.right else 0
+        earned = mark.earned(worth[name])
         of_all = f"<b>{earned:g} of {worth[name]:g}</b>" if name else ""
         said = mark.said.removeprefix(f"✗ {name}: ").removeprefix(f"✓ {name}: ")
         parts.append(f"<h2>{of_all}{'✓' if mark.right else '✗'} {escape(name)}</h2>")

@@ -28,12 +28,14 @@ from mocap.course.checks.inputs import noted_requests
 from mocap.course.marking.cells import Cell, Sheet, code_cells, course_sheets, sheet_of, without_commands
 from mocap.course.marking.grades import NO_EXERCISE, NO_NOTEBOOK, NOTHING, UNKNOWN, Mark
 from mocap.course.marking.hand_ins import Collected, Sent, collect, sent_by
+from mocap.course.marking.likeness import is_published, tree_of
 from mocap.course.marking.notes import note
 from mocap.course.marking.plain_data import unpack
 from mocap.course.marking.sealed import Ended, Sealed, guards_files, protection
 from mocap.course.marking.walls import require_sealing
 from mocap.course.notebooks import library, names_of
 from mocap.course.opening import stored
+from mocap.course.written import Answer, answers_in
 from mocap.errors import MocapError
 
 SECONDS = 30  # time limit of an exercise
@@ -47,6 +49,13 @@ CHANGES_PACKAGE = "✗ changes the installed package."
 _students: list[Sealed] = []  # the single one by which this process marks notebook after notebook
 
 
+class _Task(NamedTuple):
+    """How all notebooks are marked: the seed of the random inputs, and what earns points."""
+
+    seed: int
+    partial_points: bool = False
+
+
 class _Handed(NamedTuple):
     """A notebook that was handed in: its path, its cells, the course's, and what is wrong with it."""
 
@@ -54,10 +63,29 @@ class _Handed(NamedTuple):
     cells: list[Cell]
     sheet: Sheet = ((), frozenset())
     wrong: str = ""
+    written: Sequence[Answer] = ()
+
+
+def written_answers(folder: Path) -> list[Answer]:
+    """List what students wrote in the cells of text of their notebooks, for a person to read.
+
+    Examples
+    --------
+    >>> written_answers(Path("nowhere"))
+    []
+    """
+    sheets = course_sheets(stored())
+    notebooks = collect(folder).notebooks if folder.is_dir() else []
+    return [answer for sent in notebooks for answer in _read(sent, sheets).written]
 
 
 def mark(
-    folder: Path, progress: Progress = iter, tell: Callable[[str], object] = str, jobs: int = 1
+    folder: Path,
+    progress: Progress = iter,
+    tell: Callable[[str], object] = str,
+    jobs: int = 1,
+    *,
+    partial_points: bool = False,
 ) -> Iterator[list[Mark]]:
     """Mark the exercises of all notebooks in a folder and in the folders inside it.
 
@@ -75,6 +103,7 @@ def mark(
     progress : wraps the notebooks while they are marked.
     tell : gets a sentence that says what walls there are, before the first notebook runs.
     jobs : how many notebooks are marked at a time; one, where no wall keeps them apart.
+    partial_points : whether a wrong function earns points by the random inputs on which it is right.
 
     Yields
     ------
@@ -107,9 +136,10 @@ def mark(
         tell(protection(student.walls))
         fingerprint = _fingerprint(student.walls)
         _students[:] = [student]
-        work = (_marks(notebook, seed) for notebook in handed_in)
+        task = _Task(seed, partial_points=partial_points)
+        work = (_marks(notebook, task) for notebook in handed_in)
         if jobs > 1 and not fingerprint:
-            work = _in_parallel(handed_in, seed, hidden, jobs)
+            work = _in_parallel(handed_in, task, hidden, jobs)
         with closing(work):
             for notebook, marks in zip(progress(handed_in), work, strict=False):
                 if _fingerprint(student.walls) != fingerprint:
@@ -156,13 +186,13 @@ def _not_handed_in(place: str, name: str) -> Mark:
 
 
 def _in_parallel(
-    handed_in: list[_Handed], seed: int, hidden: Sequence[Path], jobs: int
+    handed_in: list[_Handed], task: _Task, hidden: Sequence[Path], jobs: int
 ) -> Generator[list[Mark]]:
     """Mark several notebooks at a time; at the end, also an early one, no process is left."""
     fork = multiprocessing.get_context("fork")
     with ProcessPoolExecutor(jobs, fork, _begin, (hidden,)) as pool:
         try:
-            yield from pool.map(_marks, handed_in, repeat(seed))
+            yield from pool.map(_marks, handed_in, repeat(task))
         except BrokenExecutor as error:
             raise MocapError("A worker was ended from outside: is there enough memory?") from error
         finally:
@@ -199,7 +229,8 @@ def _read(sent: Sent, sheets: Sequence[Sheet]) -> _Handed:
         cells = code_cells(notebook)
         if sum(len(cell.source) for cell in cells) > MOST_CODE:
             raise MocapError(f"holds more than {MOST_CODE >> 20} MB of code.")
-        return _Handed(sent.path, cells, sheet_of(notebook, sheets))
+        sheet = sheet_of(notebook, sheets)
+        return _Handed(sent.path, cells, sheet, written=answers_in(notebook, sent.path, sheet[1]))
     except MocapError as error:
         wrong = f"{sent.path}: {error}"
     except Exception:  # nbformat raises errors of many kinds, and lets some things pass that are no notebooks
@@ -207,15 +238,15 @@ def _read(sent: Sent, sheets: Sequence[Sheet]) -> _Handed:
     return _Handed(sent.path, [], wrong=wrong)
 
 
-def _marks(handed: _Handed, seed: int) -> list[Mark]:
+def _marks(handed: _Handed, task: _Task) -> list[Mark]:
     """Mark a notebook; an error costs this notebook only."""
     try:
-        return list(_marks_of(handed, seed, _students[0]))
+        return list(_marks_of(handed, task, _students[0]))
     except Exception as error:
         return [Mark(handed.path, "", False, f"cannot be marked: {type(error).__name__}.")]
 
 
-def _marks_of(handed: _Handed, seed: int, student: Sealed) -> Iterator[Mark]:
+def _marks_of(handed: _Handed, task: _Task, student: Sealed) -> Iterator[Mark]:
     """Mark the exercises of the course's notebook, and those of others of which it has cells."""
     exercises, course = handed.sheet
     tags = [name for cell in handed.cells for name in cell.exercises]
@@ -229,7 +260,7 @@ def _marks_of(handed: _Handed, seed: int, student: Sealed) -> Iterator[Mark]:
     elif not names:
         problem = NO_NOTEBOOK if handed.wrong else NO_EXERCISE
         yield Mark(handed.path, "", False, handed.wrong or "holds no exercise of the course.", "", problem)
-    verdicts = _judge_all(handed.cells, names, seed, student)
+    verdicts, passed = _judge_all(handed.cells, names, task, student)
     wrong = {name for name, verdict in verdicts.items() if not verdict.right}
     for name, verdict in verdicts.items():
         said = str(verdict)
@@ -238,7 +269,10 @@ def _marks_of(handed: _Handed, seed: int, student: Sealed) -> Iterator[Mark]:
         if used and not verdict.right:
             hint = f"uses {', '.join(f'`{function}`' for function in used)}, which is not right either"
             said = f"{said} It {hint}."
-        yield Mark(handed.path, name, verdict.right, said, hint)
+        tree = tree_of(handed.cells, name)
+        published = is_published(tree, name, course)
+        mark = Mark(handed.path, name, verdict.right, said, hint, "", passed.get(name, 0.0))
+        yield mark._replace(published=published, tree=tree)
 
 
 def _used_by(name: str, cells: Sequence[Cell]) -> set[str]:
@@ -252,12 +286,19 @@ def _used_by(name: str, cells: Sequence[Cell]) -> set[str]:
     return used - {name}
 
 
-def _judge_all(cells: list[Cell], names: list[str], seed: int, student: Sealed) -> dict[str, Verdict]:
+def _judge_all(
+    cells: list[Cell], names: list[str], task: _Task, student: Sealed
+) -> tuple[dict[str, Verdict], dict[str, float]]:
     """Judge exercises in one process, and in a new one after an exercise that ends it.
 
     All together have the time `BUDGET`, so that no notebook can hold up the marking of a class.
+
+    Returns
+    -------
+    The verdicts, and the fractions of the inputs on which wrong functions are right, if they earn points.
     """
     judged: dict[str, Verdict] = {}
+    passed: dict[str, float] = {}
     end = time.monotonic() + BUDGET
     while remaining := [name for name in names if name not in judged]:
         at_fault = remaining
@@ -269,10 +310,13 @@ def _judge_all(cells: list[Cell], names: list[str], seed: int, student: Sealed) 
                 at_fault = [name]
                 _ = all_checks()[name].answers  # the import is not the student's time
                 _allow(student, SECONDS, end)
-                judged[name] = _judge(student, name, seed)
+                judged[name] = _judge(student, name, task.seed)
+                if task.partial_points and not judged[name].right:
+                    passed[name] = _passed(student, name, task.seed)
         except Ended as ended:
-            judged |= {name: Verdict(False, f"{name}: {ended}.") for name in at_fault}
-    return judged
+            judged |= {name: Verdict(False, f"{name}: {ended}.") for name in at_fault if name not in judged}
+            passed |= dict.fromkeys(at_fault, 0.0)
+    return judged, passed
 
 
 def _allow(student: Sealed, seconds: float, end: float) -> None:
@@ -303,6 +347,17 @@ def _judge(student: Sealed, name: str, seed: int) -> Verdict:
     if verdict.right or not error:
         return verdict
     return Verdict(False, f"{name}: {error}")
+
+
+def _passed(student: Sealed, name: str, seed: int) -> float:
+    """Return the fraction of the inputs on which a function is right; 0 if its cells cannot be run."""
+    check = copy.copy(all_checks()[name])
+    check.seconds = SECONDS
+    has_cell, error = student.ask("prepare", name)
+    if error or not has_cell:
+        return 0.0
+    with np.errstate(all="ignore"):
+        return check.passed(partial(call, student, name), seed)
 
 
 def call(student: Sealed, name: str, *arguments: Any) -> Any:  # noqa: ANN401

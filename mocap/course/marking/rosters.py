@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import csv
 import io
 import re
@@ -16,6 +17,10 @@ MOODLE = ("Identifier", "Full name", "Email address", "Last modified (grade)")
 CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
 NAMES = ("Student", "Full name", "Email address", "ID", "SIS User ID", "SIS Login ID", "Identifier")
 """Columns that say who a student is; the first one that is not empty names the student."""
+
+SEPARATORS = (",", ";", "\t")  # of columns; the first one if a header has none
+LATE_FILE = re.compile(r"_LATE_\d+_")  # in the names of Canvas
+LATE_STATUS = re.compile(r"[^-;,.]*\blate\b")  # in the column `Status` of Moodle
 
 MORE_NAMES = ("Username", "ID number")
 
@@ -32,9 +37,38 @@ def read_table(file: Path, parse: Callable[[str], Any]) -> Any:  # noqa: ANN401
     MocapError : if it cannot be read or parsed.
     """
     try:
-        return parse(file.read_text("utf-8-sig"))
+        return parse(_decoded(file.read_bytes()))
     except (OSError, ValueError, csv.Error) as error:
         raise MocapError(f"{file}: cannot be read ({error})."[:200]) from error
+
+
+def _decoded(content: bytes) -> str:
+    """Decode a text as UTF-16 if it begins as such, as UTF-8, or else as Windows writes it in the West.
+
+    Examples
+    --------
+    >>> _decoded("Zoë".encode("utf-16")), _decoded("Zoë".encode("cp1252"))
+    ('Zoë', 'Zoë')
+    """
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return content.decode("utf-16")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return content.decode("cp1252")
+
+
+def _lines(text: str) -> list[list[str]]:
+    r"""Read the lines of a table, whose columns are between commas, semicolons or tabulators.
+
+    Examples
+    --------
+    >>> _lines("Full name;ID number\n\"Lovelace, Ada\";7")
+    [['Full name', 'ID number'], ['Lovelace, Ada', '7']]
+    """
+    header, _, _ = text.partition("\n")
+    separator = max(SEPARATORS, key=header.count)
+    return list(csv.reader(io.StringIO(text), delimiter=separator))
 
 
 def read_roster(file: Path | None) -> list[dict[str, str]]:
@@ -51,7 +85,7 @@ def read_roster(file: Path | None) -> list[dict[str, str]]:
     """
     if file is None:
         return []
-    lines = read_table(file, lambda text: [*csv.reader(io.StringIO(text))])
+    lines = read_table(file, _lines)
     header = lines[0] if lines else []
     if not {*NAMES, *MORE_NAMES} & {*header}:
         raise MocapError(
@@ -118,3 +152,19 @@ def _names(row: Row, number: str) -> list[str]:
         return re.findall(r"\d+", row.get("Identifier", "") or row.get("ID", ""))
     names = [row.get(column, "").casefold() for column in (*NAMES, *MORE_NAMES)]
     return [*names, *(name.split("@")[0] for name in names)]
+
+
+def lateness(sent: str, row: Row) -> str:
+    """Return how late something was handed in, as Canvas says in its name, or Moodle in the column `Status`.
+
+    Examples
+    --------
+    >>> lateness("lovelaceada_LATE_815_4711_02-matching.ipynb", {})
+    'late'
+    >>> lateness("Ada_7_assignsubmission_file", {"Status": "Submitted for grading - 2 hours 5 mins late"})
+    '2 hours 5 mins late'
+    """
+    stated = LATE_STATUS.search(row.get("Status", ""))
+    if stated:
+        return stated[0].strip()
+    return "late" if LATE_FILE.search(sent) else ""

@@ -47,8 +47,8 @@ def test_a_text_stays_on_one_line_and_is_short():
 def test_a_table_keeps_commas_the_better_of_two_copies_and_students_without_marks():
     marks = [Mark("ada/1.ipynb", "f", right, "✗ f: one, two") for right in (False, True, False)]
     marks.append(Mark("bob/1.ipynb", "", False, ""))
-    assert table(marks, end="")[1] == ["ada/1.ipynb", "f", "0", "✗ f: one, two", ""]
-    assert table(marks) == [["student", "f", "points"], ["ada", "1", "1"], ["bob", "", "0"]]
+    assert table(marks, end="")[1] == ["ada/1.ipynb", "f", "0", "✗ f: one, two", "", "", ""]
+    assert table(marks) == [["student", "f", "points", "late"], ["ada", "1", "1", ""], ["bob", "", "0", ""]]
 
 
 @pytest.mark.parametrize(
@@ -184,9 +184,9 @@ def test_who_is_in_the_roster_and_handed_in_nothing_gets_a_row_of_zeros(roster):
     marks, grades = by_identifier(roster, ["zhangw"])
     texts = tables(marks, list(grades.values()), {})
     assert read(texts["-table"])[1:] == [
-        ["zhangw", "1", "1"],
-        ["Wei Zhang", "0", "0"],
-        ["Ada Lovelace", "0", "0"],
+        ["zhangw", "1", "1", ""],
+        ["Wei Zhang", "0", "0", ""],
+        ["Ada Lovelace", "0", "0", ""],
     ]
     assert read(texts["-moodle"])[-1] == ["Participant 3", "Ada Lovelace", "ada@b.org", "", "0"]
 
