@@ -13,7 +13,8 @@ from mocap.body.motion import Motion, concatenate
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError, NoWalk
 from mocap.matching.point_clouds import align
-from mocap.methods.parametric_graphs.made_motions import HALF, WINDOW, MadeMotion, make_motion
+from mocap.methods.parametric_graphs.examples import HALF
+from mocap.methods.parametric_graphs.made_motions import WINDOW, MadeMotion, make_motion
 from mocap.methods.parametric_graphs.parametric_edges import TargetBox
 from mocap.methods.parametric_graphs.stride_spaces import Space
 from mocap.methods.parametric_graphs.tuned import TUNED
