@@ -51,23 +51,22 @@ def record(experiment: Experiment, *, room: int = ROOM) -> dict[str, Any] | None
     (['0', '2', '4'], 1, 3)
     """
     for name, control in experiment.controls.items():
-        if hasattr(control, "with_handles") or not (positions := _positions(control)):
+        positions = [] if hasattr(control, "with_handles") else _positions(control)
+        if not positions:
             continue
         rest = control.value
-        at = next(number for number, (_, value) in enumerate(positions) if value == rest)
+        resting = next(number for number, (_, value) in enumerate(positions) if value == rest)
         try:
             stills = [experiment.set(**{name: value}).still()[0]["image/png"] for _, value in positions]
         finally:
             experiment.set(**{name: rest})
         pictures = [Image.open(io.BytesIO(base64.b64decode(png))).convert("RGB") for png in stills]
-        kept, small = _fitting(pictures, at, room)
-        return {
-            "name": name.replace("_", " "),
-            "labels": [positions[number][0] for number in kept],
-            "pictures": [base64.b64encode(data).decode() for data in small],
-            "at": kept.index(at),
-            "alt": experiment.alt,
-        }
+        kept, small = _fitting(pictures, resting, room)
+        recorded: dict[str, Any] = {"name": name.replace("_", " "), "alt": experiment.alt}
+        recorded["labels"] = [positions[number][0] for number in kept]
+        recorded["pictures"] = [base64.b64encode(data).decode() for data in small]
+        recorded["at"] = kept.index(resting)
+        return recorded
     return None
 
 
@@ -76,34 +75,37 @@ def _positions(control: Any) -> list[tuple[str, Any]]:  # noqa: ANN401
     if isinstance(control.value, bool):
         return [("off", False), ("on", True)]
     if hasattr(control, "options"):
-        at, positions = control.index, list(control._options_full)
+        resting = control.index
+        positions = list(control._options_full)
     elif hasattr(control, "step"):
         count = 1 + max(1, round((control.max - control.min) / control.step))
         steps = (control.min + number * control.step for number in range(count))
         values = [min(type(control.value)(value), control.max) for value in steps]
-        at = round((control.value - control.min) / control.step)
-        values[at] = control.value
+        resting = round((control.value - control.min) / control.step)
+        values[resting] = control.value
         positions = [(f"{value:.6g}", value) for value in values]
     else:
         return []
-    return [positions[number] for number in _spread(len(positions), at, COUNTS[0])]
+    return [positions[number] for number in _spread(len(positions), resting, COUNTS[0])]
 
 
-def _spread(count: int, at: int, most: int) -> list[int]:
-    """Choose at most `most` of `count` places, evenly, with both ends and the place `at`."""
-    places = np.unique(np.linspace(0, count - 1, min(most, count)).round().astype(int))
-    if at not in places:
+def _spread(count: int, resting: int, limit: int) -> list[int]:
+    """Choose at most `limit` of `count` positions, evenly, with both ends and the position at rest."""
+    places = np.unique(np.linspace(0, count - 1, min(limit, count)).round().astype(int))
+    if resting not in places:
         inner = places[1:-1] if len(places) > 2 else places
-        places[np.flatnonzero(places == inner[np.abs(inner - at).argmin()])] = at
+        nearest = inner[np.abs(inner - resting).argmin()]
+        places[np.flatnonzero(places == nearest)] = resting
     return [int(place) for place in np.sort(places)]
 
 
-def _fitting(pictures: list[Image.Image], at: int, room: int) -> tuple[list[int], list[bytes]]:
+def _fitting(pictures: list[Image.Image], resting: int, room: int) -> tuple[list[int], list[bytes]]:
     """Choose pictures, and encode them, so that they fit: first smaller, then fewer, then smaller still."""
 
     @cache
     def encoded(number: int, size: float) -> bytes:
-        picture, data = pictures[number], io.BytesIO()
+        picture = pictures[number]
+        data = io.BytesIO()
         if size < 1:
             wide, high = (max(1, round(size * length)) for length in picture.size)
             picture = picture.resize((wide, high), Image.Resampling.LANCZOS)
@@ -112,7 +114,7 @@ def _fitting(pictures: list[Image.Image], at: int, room: int) -> tuple[list[int]
 
     tries = [(count, size) for count in COUNTS for size in SIZES[:2]]
     for count, size in [*tries, *((COUNTS[-1], size) for size in SIZES[2:])]:
-        kept = _spread(len(pictures), at, count)
+        kept = _spread(len(pictures), resting, count)
         small = [encoded(number, size) for number in kept]
         if sum(map(len, small)) <= room:
             break
