@@ -158,6 +158,9 @@ def mark(
     feedback: Annotated[Path | None, "folder to write to, with an HTML page for each student"] = None,
     partial: Annotated[bool, "give a wrong function the fraction of its points on which it is right"] = False,
     jobs: Annotated[int, number(1, 64, int), "number of notebooks that are marked at a time"] = 1,
+    container: Annotated[
+        bool, "run the command in a container, with podman or docker, without a network"
+    ] = False,
 ) -> int:
     """Mark a folder of submitted notebooks, and write .csv files.
 
@@ -183,13 +186,18 @@ def mark(
     -----
     Example: mocap course mark handed-in -o marks.csv --points points.toml --feedback feedback
     """
+    tell = functools.partial(print, file=sys.stderr)
+    if container:
+        files = {"": folder, "--points": points, "--roster": roster}
+        results = {"--out": out, "--feedback": feedback}
+        options = ["--jobs", str(jobs), *(["--partial"] if partial else [])]
+        return marking.container.mark_in_container(files, results, options, tell)
     marking.walls.require_sealing()  # before anything is read
     worth = marking.grades.read_points(points)
     students = marking.rosters.read_roster(roster)
     require_writable(out)
     marks: list[marking.grades.Mark] = []
     grades: list[marking.grades.Grade] = []
-    tell = functools.partial(print, file=sys.stderr)
     for marks_of_notebook in marking.mark(folder, bar("marking"), tell, jobs, partial_points=partial):
         marks += marks_of_notebook
         grades = marking.grades.grade(marks, worth, students)

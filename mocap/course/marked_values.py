@@ -22,7 +22,7 @@ class Marked(NamedTuple):
     """A number in prose: how it is shown, whether it is approximate, and the expression that computes it."""
 
     shown: str
-    about: bool
+    is_approximate: bool
     expression: str
 
     def written(self, value: float) -> str:
@@ -48,7 +48,7 @@ class Marked(NamedTuple):
         >>> Marked("100", True, "ratio").agrees(109.0)
         True
         """
-        if self.about:
+        if self.is_approximate:
             return abs(value - _number(self.shown)) <= ABOUT * abs(value)
         return self.written(value) == self.shown or _number(self.written(value)) == _number(self.shown)
 
@@ -67,7 +67,7 @@ def marked(text: str) -> Iterator[Marked]:
     Examples
     --------
     >>> list(marked("It is 2.8<!--= 100 * off --> cm off."))
-    [Marked(shown='2.8', about=False, expression='100 * off')]
+    [Marked(shown='2.8', is_approximate=False, expression='100 * off')]
     """
     for match in _MARK.finditer(text):
         if not match["shown"]:
@@ -104,8 +104,8 @@ def wrong(text: str, values: Mapping[str, float | str]) -> list[str]:
     for mark in marked(text):
         value = values[mark.expression]
         if isinstance(value, str) or not mark.agrees(value):
-            given = value if isinstance(value, str) else f"{value:.6g}"
-            sentences.append(f"The text says {mark.shown}; {mark.expression!r} gives {given}.")
+            computed = value if isinstance(value, str) else f"{value:.6g}"
+            sentences.append(f"The text says {mark.shown}; {mark.expression!r} gives {computed}.")
     return sentences
 
 

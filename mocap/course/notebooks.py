@@ -154,14 +154,15 @@ def names_of(source: str) -> tuple[set[str], set[str]]:
         top = symtable.symtable(source, "", "exec")
     except (SyntaxError, ValueError):
         return set(), set()
-    made = [symbol for symbol in top.get_symbols() if symbol.is_assigned() or symbol.is_imported()]
-    used, tables = set(), [top]
+    defining = [symbol for symbol in top.get_symbols() if symbol.is_assigned() or symbol.is_imported()]
+    used: set[str] = set()
+    tables = [top]
     while tables:
         table = tables.pop()
         tables += table.get_children()
         symbols = [symbol for symbol in table.get_symbols() if symbol.is_referenced()]
         used |= {symbol.get_name() for symbol in symbols if table is top or symbol.is_global()}
-    return {symbol.get_name() for symbol in made}, used
+    return {symbol.get_name() for symbol in defining}, used
 
 
 def run(path: Path, figures: Path) -> None:
@@ -179,7 +180,8 @@ def run(path: Path, figures: Path) -> None:
     ------
     MocapError : if a cell or a marked number fails; the file stays as it was.
     """
-    nbformat, notebook = library(), read(path)
+    nbformat = library()
+    notebook = read(path)
     for name, cell in tagged(notebook, "source"):
         cell.source = shown_source(name)
     for cell in notebook.cells:
@@ -190,14 +192,24 @@ def run(path: Path, figures: Path) -> None:
     execute(notebook, path)
     printed = "".join(o.text for o in notebook.cells.pop().outputs if o.get("name") == "stdout")
     values = json.loads(printed) if printed else {}  # none of a notebook that stepped aside
+    _renew_numbers(notebook, path, values)
+    settle(notebook)
+    write_file(path, nbformat.writes(notebook) + "\n")
+
+
+def _renew_numbers(notebook: Any, path: Path, values: dict[str, float | str]) -> None:  # noqa: ANN401
+    """Write computed values into the text of a notebook; raise if one is missing where it must not be."""
     for number, cell in enumerate(notebook.cells):
         if cell.cell_type == "markdown":
             cell.source = marked_values.refreshed(cell.source, values)
-            left = marked_values.wrong(cell.source, values) if values else []
-            if left and "real" not in cell.metadata.get("tags", ()):
-                raise MocapError(f"{path}, cell {number}: {left[0]}")
-    settle(notebook)
-    write_file(path, nbformat.writes(notebook) + "\n")
+            wrong = marked_values.wrong(cell.source, values) if values else []
+            if wrong and not _is_real(cell):
+                raise MocapError(f"{path}, cell {number}: {wrong[0]}")
+
+
+def _is_real(cell: Any) -> bool:  # noqa: ANN401
+    """Return whether a cell needs captured clips."""
+    return "real" in cell.metadata.get("tags", ())
 
 
 def execute(notebook: Any, path: Path, seconds: int = 120) -> None:  # noqa: ANN401
@@ -216,14 +228,14 @@ def execute(notebook: Any, path: Path, seconds: int = 120) -> None:  # noqa: ANN
     from nbclient import NotebookClient
     from nbclient.exceptions import CellExecutionError
 
-    at = [0]
+    started = [0]
     options: dict[str, Any] = {"resources": {"metadata": {"path": path.parent}}, "timeout": seconds}
     client: Any = NotebookClient(notebook, extra_arguments=["--log-level=ERROR"], **options)
-    client.on_cell_start = lambda cell, cell_index: at.append(cell_index)
+    client.on_cell_start = lambda cell, cell_index: started.append(cell_index)
     try:
         client.execute(env={**os.environ, "MOCAP_MINE": ""})
     except CellExecutionError as error:
-        raise MocapError(f"{path}, cell {at[-1]}: {error.ename}: {error.evalue:.99}") from error
+        raise MocapError(f"{path}, cell {started[-1]}: {error.ename}: {error.evalue:.99}") from error
 
 
 def settle(notebook: Any) -> None:  # noqa: ANN401
@@ -233,16 +245,30 @@ def settle(notebook: Any) -> None:  # noqa: ANN401
         cell.id = f"cell-{number:02}"
         cell.metadata = {key: value for key, value in cell.metadata.items() if key == "tags"}
         if cell.cell_type == "code":
-            outputs, cell.outputs = cell.outputs, []
-            for output in outputs:
-                if (data := output.get("data", {})).pop(WIDGET, None) and not data:
-                    continue  # a widget alone, which ends with the kernel
-                before: Any = cell.outputs[-1] if cell.outputs else {}
-                if output.output_type == "stream" and before.get("name") == output.name:
-                    before.text += output.text  # pieces of one stream
-                else:
-                    cell.outputs.append(output)
-        if "real" in cell.metadata.get("tags", ()):  # only pictures: no captured motion is stored
-            for data in (output.get("data", {}) for output in cell.get("outputs", ())):
-                if "text/html" in data:
-                    data["text/html"] = MOVING.sub(r"\1", data["text/html"])
+            cell.outputs = _joined(cell.outputs)
+        if _is_real(cell):
+            _keep_pictures(cell)
+
+
+def _joined(outputs: list[Any]) -> list[Any]:
+    """Drop widgets, which end with the kernel, and join the pieces of one stream."""
+    joined: list[Any] = []
+    for output in outputs:
+        data = output.get("data", {})
+        is_widget = data.pop(WIDGET, None) is not None
+        if is_widget and not data:
+            continue
+        previous: Any = joined[-1] if joined else {}
+        if output.output_type == "stream" and previous.get("name") == output.name:
+            previous.text += output.text
+        else:
+            joined.append(output)
+    return joined
+
+
+def _keep_pictures(cell: Any) -> None:  # noqa: ANN401
+    """Replace what moves by its picture, so that no captured motion is stored."""
+    for output in cell.get("outputs", ()):
+        data = output.get("data", {})
+        if "text/html" in data:
+            data["text/html"] = MOVING.sub(r"\1", data["text/html"])

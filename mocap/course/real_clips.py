@@ -62,15 +62,16 @@ def collections(fps: float = 120) -> dict[str, list[Motion]]:
 
     Notebook: 09-discussion
     """
-    near = Path(os.environ.get("MOCAP_DATA", "."))
+    folder = Path(os.environ.get("MOCAP_DATA", "."))
+    homework = sorted([*folder.glob("hw3/*.AMC"), *folder.parent.glob("hw3/*.AMC")])
     walks = people(*(f"16_{trial}" for trial in (*range(11, 35), 47, 58)))
-    found = {
-        "generated": [datasets.sample(name) for name in datasets.SAMPLES[3:]],
-        "homework": [load(f) for f in sorted([*near.glob("hw3/*.AMC"), *near.parent.glob("hw3/*.AMC")])],
-        "CMU 16": [clip[SETTLED:] for clip in walks],
-        "CMU 03": [clip[SETTLED:] for clip in (people(*UNEVEN) if walks else [])],
-    }
+    uneven = people(*UNEVEN) if walks else []
+    by_name = {"generated": [datasets.sample(name) for name in datasets.SAMPLES[3:]]}
+    by_name["homework"] = [load(file) for file in homework]
+    by_name["CMU 16"] = [clip[SETTLED:] for clip in walks]
+    by_name["CMU 03"] = [clip[SETTLED:] for clip in uneven]
     if fps != 120:
-        found = {name: [resample(clip, fps) for clip in clips] for name, clips in found.items()}
-        found |= {name: list(map(mark_plants, clips)) for name, clips in found.items() if name != "generated"}
-    return {name: clips for name, clips in found.items() if clips}
+        by_name = {name: [resample(clip, fps) for clip in clips] for name, clips in by_name.items()}
+        captured = {name: clips for name, clips in by_name.items() if name != "generated"}
+        by_name |= {name: list(map(mark_plants, clips)) for name, clips in captured.items()}
+    return {name: clips for name, clips in by_name.items() if clips}

@@ -40,20 +40,23 @@ def walk_costs(odds: Array, costs: Array, *, walks: int = 40, steps: int = 60, s
 
     Notebook: 09-discussion
     """
-    rng, rows = np.random.default_rng(seed), np.full((walks, steps), np.nan)
+    rng = np.random.default_rng(seed)
+    rows = np.full((walks, steps), np.nan)
     for row in rows:
-        at = int(rng.integers(len(odds)))
+        state = int(rng.integers(len(odds)))
         for step in range(steps):
-            if not odds[at].any():
+            if not odds[state].any():
                 break
-            before, at = at, int(rng.choice(len(odds), p=odds[at] / odds[at].sum()))
-            row[step] = costs[before, at]
+            probabilities = odds[state] / odds[state].sum()
+            successor = int(rng.choice(len(odds), p=probabilities))
+            row[step] = costs[state, successor]
+            state = successor
     return rows
 
 
-def choose_matches(
+def choose_matches(  # reads: name: the notebooks write `beside`
     clips: Sequence[Motion],
-    found: Transitions,
+    transitions: Transitions,
     limits: tuple[float, float],
     *,
     count: int = 30,
@@ -64,7 +67,7 @@ def choose_matches(
     Parameters
     ----------
     clips : in which they were found, over windows of ten frames.
-    found : as from `matching.find_transitions`.
+    transitions : as from `matching.find_transitions`.
     limits : their costs, from the first to just below the second, metres.
     count : how many; fewer where there are no more.
     beside : frames of both clips on either side.
@@ -76,12 +79,17 @@ def choose_matches(
 
     Notebook: 09-discussion
     """
-    lengths, half = np.array([len(clip) for clip in clips], int), MATCHED // 2
-    after = np.minimum(lengths[found.source] - found.leave, lengths[found.target] - found.enter)
-    room = (np.minimum(found.leave, found.enter) >= beside - half) & (after >= beside + half)
-    near = (found.cost >= limits[0]) & (found.cost < limits[1]) & (found.source != found.target)
-    numbers = np.random.default_rng(0).permutation(np.flatnonzero(room & near))
-    return [found[number] for number in numbers[:count]]
+    lengths = np.array([len(clip) for clip in clips], int)
+    half = MATCHED // 2
+    preceding = np.minimum(transitions.leave, transitions.enter)
+    following_source = lengths[transitions.source] - transitions.leave
+    following = np.minimum(following_source, lengths[transitions.target] - transitions.enter)
+    has_room = (preceding >= beside - half) & (following >= beside + half)
+    lowest, highest = limits
+    is_wanted = (transitions.cost >= lowest) & (transitions.cost < highest)
+    is_between_clips = transitions.source != transitions.target
+    numbers = np.random.default_rng(0).permutation(np.flatnonzero(has_room & is_wanted & is_between_clips))
+    return [transitions[number] for number in numbers[:count]]
 
 
 class Passage(NamedTuple):
@@ -100,8 +108,8 @@ class Passage(NamedTuple):
     @property
     def alpha(self) -> Array:
         """The weight of the first clip in each frame, shape (F,)."""
-        after = len(self.first) - self.start - len(self.weights)
-        return np.concatenate([np.ones(self.start), self.weights, np.zeros(after)])
+        following = len(self.first) - self.start - len(self.weights)
+        return np.concatenate([np.ones(self.start), self.weights, np.zeros(following)])
 
     @property
     def gap(self) -> Array:
@@ -130,11 +138,13 @@ class Passage(NamedTuple):
     def slide(self) -> float:
         """How much further planted feet slide than in the two clips, each up to or from the middle, cm."""
         middle = self.start + len(self.weights) // 2
-        own = sliding_per_frame(self.first)[:middle].sum() + sliding_per_frame(self.second)[middle:].sum()
-        return float(sliding_per_frame(self.result).sum() - own)
+        of_clips = (
+            sliding_per_frame(self.first)[:middle].sum() + sliding_per_frame(self.second)[middle:].sum()
+        )
+        return float(sliding_per_frame(self.result).sum() - of_clips)
 
 
-def passage(
+def passage(  # reads: name: the notebooks write `beside`
     clips: Sequence[Motion],
     match: Transition,
     window: int,

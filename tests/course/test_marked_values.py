@@ -41,7 +41,7 @@ def test_a_number_agrees_to_the_digits_shown(shown, value, agrees):
 
 def test_an_approximate_number_is_within_a_tenth():
     (mark,) = marked("about 500<!--~ ratio -->")
-    assert mark.about
+    assert mark.is_approximate
     assert [mark.agrees(value) for value in (440, 460, 550, 560)] == [False, True, True, False]
 
 

@@ -22,6 +22,7 @@ Reading order
 14. `grades`: points, tables for spreadsheets, Moodle and Canvas, the closing account, and feedback
 15. `class_page`: what the class misunderstood
 16. `marks`: judge each exercise of each notebook
+17. `container`: the whole command in a container, if that is asked for
 """
 
 from mocap._shared import faces

@@ -1,4 +1,5 @@
 from . import class_page as class_page
+from . import container as container
 from . import grades as grades
 from . import rosters as rosters
 from . import walls as walls
