@@ -16,7 +16,7 @@ import numpy as np
 from mocap.body import Motion, on_ground, rotations
 from mocap.errors import MocapError
 from mocap.methods import motion_matching, parametric_graphs
-from mocap.steering import Controller, command_headings, steer
+from mocap.steering import Controller, RootTurner, command_headings, steer
 from mocap.steering.characters import Character
 from tasks import BANDAI, CMU_16, HOMEWORK, WALKS, Case, graph
 from tasks._measures import foot_sliding_speed, jolting
@@ -90,6 +90,9 @@ METHODS: dict[str, Callable[[Case], Motion]] = {
     "motion graph": steered(lambda case: Controller(graph(case.given["clips"]))),
     "motion graph, turned about the foot": steered(
         lambda case: compare_control.turned(graph(case.given["clips"]))
+    ),
+    "motion graph, turned about the root": steered(
+        lambda case: RootTurner(Controller(graph(case.given["clips"])))
     ),
     "motion matching": steered(
         lambda case: motion_matching.MotionMatcher(
