@@ -38,7 +38,9 @@ BANDAI = ("1_walk_normal", "2_walk_normal", "2_walk-turn-left_normal", "2_walk-t
 SHARE = {"lrl": 1.0, "lr": 0.55, "rl": 0.55}  # a step turns by half of what a stride does, or little more
 SEEDS = range(3)  # of the commands
 SPACING = 0.02  # metres between the points of a path
-AHEAD = 0.8  # metres along a path: a character is led to the point that far ahead of it
+AHEAD = 2 / 3  # of the seconds until it obeys: a character is led to the point where it will be by then
+NEAREST = 0.3  # metres along a path: that point is no nearer
+FARTHEST = 1.2  # metres along a path: and no farther
 SEARCH_BACK = 0.2  # metres along a path: its nearest point is looked for that far behind the last one
 SEARCH_FORWARD = 1.5  # metres along a path: and that far ahead of the last one
 END = 0.1  # metres along a path: as near its end a character has arrived
@@ -203,7 +205,8 @@ it is the minimum. Strides and steps accept only a turn as command, and have the
 centimetres of a method are its threshold. Characters that are turned about the foot (`FootTurner`) or about
 the root (`RootTurner`, with their standing feet held and their steps stretched) walk on the same clips as
 those above them. The second table of each section shows characters that follow
-five paths by commands alone (`lead`), with the mean and the largest distance from the path in metres."""
+five paths by commands alone (`lead`), with the mean and the largest distance from the path in metres. The
+point to which a character is led is as far ahead as it walks in two thirds of its response, 0.3 to 1.2 m."""
 COLUMNS = (
     "| method | response, s | 95 % | slide, cm | cleaned | footplants kept | jolting | wags | pivots | m/s "
     "| step, ms | worst | ready, s |"
@@ -219,8 +222,10 @@ def _table(name: str, clips: list[mocap.Motion], speed: float) -> list[str]:
     for label, (make, seconds) in prepared.items():
         gc.collect()
         gc.freeze()
-        judged.append(f"| {label} | {_judged(make, usual, speed)} | {seconds:.2f} |")
-        led.append(f"| {label} | {_led(make, speed)} |")
+        reports = judge(make, usual, speed)
+        judged.append(f"| {label} | {_judged(reports)} | {seconds:.2f} |")
+        response = float(np.mean([report.delay.mean for report in reports]))
+        led.append(f"| {label} | {_led(make, speed, distance_ahead(speed, response))} |")
         print(judged[-1])
     return [*judged, *_reasons(refused), "", *led]
 
@@ -239,21 +244,34 @@ def _reasons(refused: dict[str, str]) -> list[str]:
     return lines
 
 
-def _led(make: Callable[[], Character], speed: float) -> str:
+def judge(make: Callable[[], Character], usual: Spread, speed: float) -> list[ControlReport]:
+    """Judge a character by the commands of each seed."""
+    return [steering.judge_control(make, usual, speed=speed, seed=seed) for seed in SEEDS]
+
+
+def distance_ahead(speed: float, response: float) -> float:
+    """Return how far ahead of a character it is led to, metres, by the seconds until it obeys.
+
+    A point that is farther than the character needs makes it cut corners, and a nearer one makes it swing.
+    """
+    return max(NEAREST, min(FARTHEST, AHEAD * speed * response))
+
+
+def _led(make: Callable[[], Character], speed: float, ahead: float) -> str:
     """Write the cells of a character that is led along each path: mean and largest distance from it, m.
 
     The share of a path that was walked is added where it is not all of it.
     """
     cells = []
     for shape in SHAPES.values():
-        distances, share = lead(make(), shape(), speed)
+        distances, share = lead(make(), shape(), speed, ahead)
         cell = f"{distances.mean():.2f}, {distances.max():.2f}"
         cells.append(cell if share == 1 else f"{cell} ({share:.0%})")
     return " | ".join(cells)
 
 
-def lead(character: Character, path: GroundPath, speed: float) -> tuple[Array, float]:
-    """Lead a character along a path by commands: to a point that is carried ahead of it, by pure pursuit.
+def lead(character: Character, path: GroundPath, speed: float, ahead: float) -> tuple[Array, float]:
+    """Lead a character along a path by commands: to a point some metres `ahead` of it, by pure pursuit.
 
     Returns its distance from the path in each frame (F,), metres, and the share of the path that it walked,
     1 for all.
@@ -272,7 +290,7 @@ def lead(character: Character, path: GroundPath, speed: float) -> tuple[Array, f
         distances.append(distance)
         if along >= path.length - END:
             break
-        goal = complex(on_ground(fine.at(along + AHEAD)))
+        goal = complex(on_ground(fine.at(along + ahead)))
         direction = float(np.angle((goal - position) / turn))
         pose = character.step(direction, speed)
     else:
@@ -299,9 +317,8 @@ def _nearest(along: Array, distances: Array, previous: float) -> tuple[float, fl
     return float(along[nearest]), float(distances[nearest])
 
 
-def _judged(make: Callable[[], Character], usual: Spread, speed: float) -> str:
+def _judged(reports: list[ControlReport]) -> str:
     """Write the cells of a character: means of three runs, and of the times the least."""
-    reports = [steering.judge_control(make, usual, speed=speed, seed=seed) for seed in SEEDS]
     cells = [*_obeying(reports), *_feet(reports), *_moving(reports), *_step_times(reports)]
     return " | ".join(cells)
 

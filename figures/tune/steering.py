@@ -11,6 +11,7 @@ duration of a walk.
 - Bent walks: the same two lines, with the walk laid on the line. Short: the distance of the walk's last frame
   from the end of the line. `idle_price`: two clips of which one stands for long. `slowest`, `grace` and
   `creep`: the same two, played at 0.6 to 0.2 times their pace. Refused: how many of these have no walk.
+- Control: a figure that is turned about its root by commands, for half a minute; see `judge_control`.
 - Crowds: two who cross. Nearest: the least distance between them, which should be 80 cm; waits: the sum of
   both. `passing`: the distance of a walk from waypoints at the moments that count as passed.
 """
@@ -24,7 +25,17 @@ from _walks import PATHS, compiled, followed, graph_of, measures
 from mocap.body import SHAPES, GroundPath, circle, resample, s_curve
 from mocap.editing import LIMIT
 from mocap.errors import NoWalk
-from mocap.steering import Waypoint, follow_path, through_waypoints, tuned, walk_crowd
+from mocap.quality import spread
+from mocap.steering import (
+    Controller,
+    RootTurner,
+    Waypoint,
+    follow_path,
+    judge_control,
+    through_waypoints,
+    tuned,
+    walk_crowd,
+)
 
 NARROW = (s_curve(2.5), circle(0.8))
 SEVERAL = (*PATHS, s_curve(4.0), SHAPES["square"]())
@@ -107,6 +118,21 @@ def passed(clips: Clips) -> Row:
     return {"missed, cm": 100 * max(arrival.off for arrival in arrivals)} | measures([walk])
 
 
+def commanded(clips: Clips) -> Row:
+    """Turn a character by commands, about its root."""
+
+    def character() -> RootTurner:
+        return RootTurner(Controller(compiled(clips)))
+
+    report = judge_control(character, spread(list(clips)), speed=1.0, seconds=30.0)
+    return {
+        "obeys, s": report.delay.mean,
+        "slide, cm": report.slide,
+        "jolting, %": 100 * report.jolting,
+        "wags, degrees": report.wags,
+    }
+
+
 # reads: statement: a table
 TRIALS = {
     "route_spacing": Trial(search, (0.2, 0.005, 0.01, 0.05)),
@@ -133,6 +159,9 @@ TRIALS = {
     "wait_step": Trial(crossing, (0.25, 1.0)),
     "detours": Trial(crossing, (0, 1)),
     "passing": Trial(passed, (0.2, 0.0, 0.05)),
+    "turn_price": Trial(commanded, (0.0, 0.1, 0.6)),
+    "turned_seam": Trial(commanded, (1.0, 6.0)),
+    "pace_price": Trial(commanded, (0.0, 3.0, 12.0)),
 }
 FIXED = {"walking_speed": "an error tells which clips walk; no search reads it"}
 STUDY = Study(tuned, TRIALS, FIXED, (STOP_AND_GO, CAPTURED_WALKS))

@@ -25,6 +25,7 @@ from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph, Node
 from mocap.steering.characters import Pose, require_command
 from mocap.steering.layered_search import EQUAL, States, macro_edge_states, start_states
+from mocap.steering.tuned import TUNED
 
 SEAM = 0.1  # m²/s, as all costs here
 LABEL = 4.0  # m²/s per second
@@ -43,7 +44,8 @@ class Controller:
     Where every step must be on time, call `gc.freeze()` after the graph is built.
 
     A figure that is turned in addition, up to `rotation_rate` radians per second, needs no clip that turns.
-    The look-ahead counts on it: it turns the walks towards the command as far as their time allows.
+    The look-ahead counts on it: it turns the walks towards the command as far as their time allows. It
+    prefers clips that need little of it, and have the speed of the command.
 
     Parameters
     ----------
@@ -224,9 +226,11 @@ class Controller:
         moved = short.rotation[row] * self.displacements[macro_edge]
         if self.rotation_rate:
             waiting = np.where(short.macro_edge[row] < 0, self.frames_left / self.fps, 0.0)
-            mean, end = self._expected_turns(moved, waiting, seconds)
-            moved = mean * moved
-            steps = steps._replace(rotation=end * steps.rotation)
+            start, end = self._expected_turns(moved, waiting, seconds)
+            moved = moved * np.exp(0.5j * (start + end))
+            effort = self._correction_cost(moved, end, waiting + seconds, seconds)
+            cost = TUNED.turned_seam * steps.cost + effort
+            steps = steps._replace(rotation=np.exp(1j * end) * steps.rotation, cost=cost)
         error = moved - velocity * seconds
         cost = (error.real**2 + error.imag**2) / seconds + steps.cost
         if label >= 0:
@@ -236,8 +240,8 @@ class Controller:
         walks = States.join([self.walks.take(~is_short), longer._replace(macro_edge=first_macro_edge)])
         self.walks = walks.take(in_order(walks.cost / walks.frames, EQUAL)[:WIDTH])
 
-    def _expected_turns(self, moved: Points, waiting: Array, seconds: Array) -> tuple[Points, Points]:
-        """Return the rotations by which the figure will have been turned towards the command.
+    def _expected_turns(self, moved: Points, waiting: Array, seconds: Array) -> tuple[Array, Array]:
+        """Return the angles by which the figure will have been turned towards the command, radians.
 
         Parameters
         ----------
@@ -246,14 +250,30 @@ class Controller:
 
         Returns
         -------
-        The mean rotation during each macro-edge and that at its end, as complex numbers.
+        The angles at the start and at the end of each macro-edge.
         """
         velocity, _ = self.command
         missing = np.angle(velocity * np.conj(moved)) if velocity else np.zeros(len(moved))
-        at_start = np.clip(missing, -self.rotation_rate * waiting, self.rotation_rate * waiting)
-        largest = self.rotation_rate * (waiting + seconds)
-        at_end = np.clip(missing, -largest, largest)
-        return np.exp(0.5j * (at_start + at_end)), np.exp(1j * at_end)
+        earlier = self.rotation_rate * waiting
+        largest = earlier + self.rotation_rate * seconds
+        at_start = np.minimum(np.maximum(missing, -earlier), earlier)
+        return at_start, np.minimum(np.maximum(missing, -largest), largest)
+
+    def _correction_cost(self, moved: Points, turn: Array, turning: Array, seconds: Array) -> Array:
+        """Return the cost of macro-edges whose direction and pace must be corrected, m²/s.
+
+        A figure that can be turned obeys on any clip. Without this cost it might walk along a clip that turns
+        all the time, and be turned back all the time.
+
+        Parameters
+        ----------
+        moved : the displacement of each macro-edge, turned.
+        turn, turning : the angle by which the figure is turned for it, radians, and the time for that.
+        seconds : its duration.
+        """
+        velocity, _ = self.command
+        pace = np.abs(moved) - abs(velocity) * seconds
+        return (TUNED.turn_price * turn) ** 2 / turning + TUNED.pace_price * pace**2 / seconds
 
     def _choose(self) -> None:
         """Take the first macro-edge of the best walk, and look ahead from its end."""

@@ -29,6 +29,8 @@ TWIST = math.radians(45)  # of the leg of a standing foot against the clip, at m
 STRETCH = 0.2  # of a step's length: the feet land that much nearer or farther than in the clips
 STRETCH_RISE = 0.5  # seconds in which steps come to be stretched by the full fraction
 RISE = 0.15  # seconds in which the rate rises from 0 to the full one
+THIRD = 1 / 3  # seconds of path that show the direction
+STRIDE = 1.0  # seconds, about that of two steps, in which the sway of the pelvis cancels
 WALKING = 0.15  # m/s. A slower character goes nowhere, so it has no direction that could be wrong
 
 
@@ -69,9 +71,10 @@ class RootTurner:
 
     The direction of the last third of a second is off the heading by e. Before each frame the figure is
     turned towards it by r min(1, e² / (20°)²) / fps, and in addition by as much as its clip turns away from
-    it. The rate r rises within 0.15 s, and a leg whose ankle stands is turned by at most 45° against its
-    clip. The steps become up to a fifth longer or shorter, towards the requested speed. The same class turns
-    characters on motion graphs and on parametric graphs, and by motion matching.
+    it. A clip that turns has gone on turning since the middle of that third; e counts that, at its mean rate
+    over a second. The rate r rises within 0.15 s, and a leg whose ankle stands is turned by at most 45°
+    against its clip. The steps become up to a fifth longer or shorter, towards the requested speed. The same
+    class turns characters on motion graphs and on parametric graphs, and by motion matching.
 
     Parameters
     ----------
@@ -98,6 +101,8 @@ class RootTurner:
     >>> untouched = measure_delay(Controller(graph), turns=10).mean
     >>> untouched - measure_delay(RootTurner(Controller(graph)), turns=10).mean > 0.5
     True
+
+    Notebook: 18-motion-matching
     """
 
     def __init__(
@@ -114,10 +119,10 @@ class RootTurner:
         self.fps = character.fps
         self.feet = HeldFeet(character.example, halflife=halflife)
         character.rotation_rate = rate
-        # The root's path in the last third of a second, as it would be without any turn, and the turn so far.
+        # The root's path in the last second, as it would be without any turn, and the turn so far.
         # So what was turned shows at once. If it showed only as the walk goes on, the figure would turn too
         # far and back, for ever.
-        self.track: deque[complex] = deque(maxlen=round(character.fps / 3) + 1)
+        self.track: deque[complex] = deque(maxlen=round(STRIDE * character.fps) + 1)
         self.root = 0j  # on the ground, z + ix
         self.rotation = 1 + 0j
         self.angle = 0.0  # by which the last frame was turned, radians
@@ -152,7 +157,8 @@ class RootTurner:
 
     def _next_stretch(self, speed: float) -> float:
         """Return the fraction by which the next step is longer than the clip's."""
-        clip_speed = abs(self.track[-1] - self.track[0]) * self.fps / (len(self.track) - 1)
+        path, seconds = self._path()
+        clip_speed = abs(path) / seconds
         needed = speed / clip_speed - 1 if clip_speed > WALKING else 0.0
         goal = max(-self.stretch, min(self.stretch, needed))
         change = self.stretch / (STRETCH_RISE * self.fps)
@@ -160,23 +166,32 @@ class RootTurner:
 
     def _next_angle(self, heading: float) -> float:
         """Return the angle of the next frame, as far as the rate and the legs allow; radians."""
-        path = self.rotation * (self.track[-1] - self.track[0])  # of the last third of a second
-        is_walking = abs(path) * self.fps > WALKING * (len(self.track) - 1)
-        error = cmath.phase(cmath.exp(1j * heading) / path) if is_walking else 0.0
+        path, seconds = self._path()
+        error = 0.0
+        if abs(path) > WALKING * seconds:
+            since_middle = cmath.exp(0.5j * seconds * self._clip_rate(STRIDE))  # what the clip has turned
+            error = cmath.phase(cmath.exp(1j * heading) / (self.rotation * since_middle * path))
         side = math.copysign(1.0, error)
-        rate = self.rate * min(1.0, (error / FULL) ** 2) + max(0.0, -side * self._clip_rate())
+        against = max(0.0, -side * self._clip_rate(THIRD))
+        rate = self.rate * min(1.0, (error / FULL) ** 2) + against
         rise = self.rate / (RISE * self.fps**2)
         angle = max(self.angle - rise, min(self.angle + rise, side * rate / self.fps))
         twists = [0.0, *self.feet.twists()]
         return max(min(0.0, max(twists) - TWIST), min(max(0.0, min(twists) + TWIST), angle))
 
-    def _clip_rate(self) -> float:
-        """Return the rate at which the root's path turns by itself, radians per second, up to `rate`."""
-        if len(self.track) < 3:
+    def _path(self) -> tuple[complex, float]:
+        """Return the unturned path of the last third of a second, and its duration."""
+        frames = min(len(self.track) - 1, round(THIRD * self.fps))
+        return self.track[-1] - self.track[-1 - frames], frames / self.fps
+
+    def _clip_rate(self, seconds: float) -> float:
+        """Return the rate at which the root's path turned by itself, radians per second, up to `rate`."""
+        half = min(len(self.track) - 1, round(seconds * self.fps)) // 2
+        if half < 1:
             return 0.0
-        half = len(self.track) // 2
-        first = self.track[half] - self.track[0]
-        second = self.track[-1] - self.track[half]
+        middle = self.track[-1 - half]
+        first = middle - self.track[-1 - 2 * half]
+        second = self.track[-1] - middle
         if min(abs(first), abs(second)) * self.fps < WALKING * half:
             return 0.0
         rate = cmath.phase(second / first) * self.fps / half

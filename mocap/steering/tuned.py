@@ -1,4 +1,4 @@
-"""Constants of searches along a path that trials chose; `figures/tune/steering.py` runs the trials again."""
+"""Constants of paths and control that trials chose; `figures/tune/steering.py` runs the trials again."""
 
 from __future__ import annotations
 
@@ -36,6 +36,13 @@ class Tuned:
     # Walks that are bent onto a path
     overrun: float = 0.5  # metres that a search goes on beyond the end. 0 to 1 end within 3 to 5 cm of it
     overrun_fraction: float = 0.02  # of the path's length, in addition
+
+    # Characters that are turned about their roots
+    turn_price: float = (
+        0.3  # metres per radian that a clip must be turned. At 0 one circle is walked for ever
+    )
+    turned_seam: float = 3.0  # factor of the price of a seam, as no seam is needed for a turn. At 1 more jolt
+    pace_price: float = 6.0  # factor of the price of a wrong pace, which is stretched. At 0 fast clips jolt
 
     # Waypoints and crowds
     waits: tuple[float, ...] = (0.0, 1.0, 2.0, 4.0)  # seconds before a start, in this order. Most need none

@@ -186,8 +186,9 @@ def rows(label):
     return [line.strip("| ").split(" | ")[1:] for line in lines if line.startswith(f"| {label} | ")]
 
 
-def led(make, shape, speed):
-    off, _ = compare_control.lead(make(), SHAPES[shape](), speed)
+def led(make, shape, speed, response):
+    ahead = compare_control.distance_ahead(speed, response)
+    off, _ = compare_control.lead(make(), SHAPES[shape](), speed, ahead)
     return f"{off.mean():.2f}, {off.max():.2f}"
 
 
@@ -200,8 +201,9 @@ def clips(monkeypatch):
 def test_matching_follows_a_circle_as_the_table_says(clips):
     some, speed = clips
     table = tabulate(some)
-    cell = rows("matching, future × 1")[1][list(SHAPES).index("circle")]
-    now = led(lambda: MotionMatcher(table), "circle", speed)
+    judged, off = rows("matching, future × 1")
+    now = led(lambda: MotionMatcher(table), "circle", speed, float(judged[0].split()[0]))
+    cell = off[list(SHAPES).index("circle")]
     kept, now = ([float(part) for part in text.split(", ")] for text in (cell, now))
     assert kept == pytest.approx(now, abs=0.03), "write it anew: python figures/compare_control.py FOLDER"
 
@@ -213,5 +215,7 @@ def test_every_way_is_worth_what_the_table_says(clips):
     assert not refused
     for label, (make, _) in made.items():
         judged, off = rows(label)
-        assert judged[:-3] == compare_control._judged(make, quality.spread(some), speed).split(" | ")[:-2]
-        assert off == [led(make, shape, speed) for shape in SHAPES]
+        reports = compare_control.judge(make, quality.spread(some), speed)
+        assert judged[:-3] == compare_control._judged(reports).split(" | ")[:-2]
+        response = float(np.mean([report.delay.mean for report in reports]))
+        assert off == [led(make, shape, speed, response) for shape in SHAPES]

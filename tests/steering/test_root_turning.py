@@ -1,5 +1,7 @@
 """Characters turn about their roots, as soon as people do, and their standing feet stay."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -74,6 +76,18 @@ def test_without_turning_and_stretching_the_root_walks_as_the_character_does():
     alone = steer(Controller(GRAPH), headings, 1.0).motion
     np.testing.assert_allclose(held.root_positions, alone.root_positions, atol=1e-9)
     assert np.mean(far(held)) < 0.3 * np.mean(far(alone))
+
+
+@cache
+def circling():
+    """Return a graph of a walk on a circle only, which turns by 55° in a second for most of the time."""
+    return graphs.compile_graph(bundled("walk_circle"))
+
+
+def test_it_walks_straight_in_the_direction_asked_for_though_its_clip_turns_all_the_time():
+    turner = RootTurner(Controller(circling()))
+    track = on_ground(steer(turner, np.full(360, 0.5), 1.0).motion.root_positions)
+    assert np.angle(track[-1] - track[120]) == pytest.approx(0.5, abs=np.radians(4))
 
 
 def test_steps_become_longer_and_shorter_towards_the_speed():

@@ -127,11 +127,13 @@ class MotionMatcher:
 
     def transform_by(self, rotation: complex, translation: complex) -> None:
         """Transform what comes from now on by p ↦ rotation · p + translation, on the ground, z + ix."""
-        transform = PlanarTransform.from_complex(rotation, translation)
-        self.place = transform @ self.place
-        turn = rotations.about_y(transform.angle)
-        self.offset[0] = rotations.rotate(turn, self.offset[0])
-        self.offset_speed[0] = rotations.rotate(turn, self.offset_speed[0])
+        turn = complex(rotation * self.place.rotation)
+        move = complex(rotation * self.place.translation + translation)
+        self.place = PlanarTransform.from_complex(turn, move)
+        for vector in (self.offset[0], self.offset_speed[0]):
+            on_floor = rotation * complex(vector[2], vector[0])
+            vector[0] = on_floor.imag
+            vector[2] = on_floor.real
 
     def _warn_of_speed(self, speed: float) -> None:
         """Warn of a new speed outside those of 98 % of the frames."""
