@@ -66,4 +66,5 @@ def whole_steps(values: ArrayLike, step: float) -> NDArray[Any]:
     >>> whole_steps([0.3, 0.3 + 1e-12, 0.4, np.inf], 1e-9).tolist()
     [300000000.0, 300000000.0, 400000000.0, inf]
     """
-    return np.asarray(np.rint(np.asarray(values) / step))
+    multiples = np.asarray(np.divide(values, step))
+    return np.rint(multiples, out=multiples)

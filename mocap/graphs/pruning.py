@@ -197,8 +197,7 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
         edges = " of edges with the same labels" if len(largest) > 1 else ""
         raise NoWalk(f"The graph has no cycle{edges}, so a walk through it ends: allow costlier transitions.")
     kept: Nodes = frozenset().union(*components.values())
-    pruned = graph.copy()  # keeps the order of the nodes, on which random walks depend
-    pruned.remove_nodes_from([node for node in graph if node not in kept])
+    pruned = _part(graph, kept)
     frames = {labels: count for labels, (_, count) in largest.items()}
     for message in _shortcomings(frames, least_frames, pruned, components):
         warn(message)
@@ -208,8 +207,19 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
     return Pruning(pruned, components, removed, tuple(reasons))
 
 
+def _part(graph: nx.MultiDiGraph, kept: Nodes) -> nx.MultiDiGraph:
+    """Copy some nodes and the edges between them, in the order of the graph, on which random walks depend."""
+    part = nx.MultiDiGraph(**graph.graph)
+    part.add_nodes_from((node, data) for node, data in graph.nodes(data=True) if node in kept)
+    edges = graph.edges(keys=True, data=True)
+    part.add_edges_from(edge for edge in edges if edge[0] in kept and edge[1] in kept)
+    return part
+
+
 def _reasons(graph: nx.MultiDiGraph, kept: Nodes) -> dict[Hashable, Reason]:
     """Return the reason for removing each node that is not kept, in the order of the graph."""
+    if len(kept) == len(graph):
+        return {}
     edges = numbered_edges(graph)
     is_kept = np.array([node in kept for node in graph])
     is_on_cycle = on_cycles(edges, len(graph))

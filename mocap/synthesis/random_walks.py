@@ -29,6 +29,7 @@ from mocap.synthesis.tuned import TUNED
 from mocap.synthesis.walk_to_motion import to_motion, transforms_along, with_footplants
 
 COST_OFFSET = 1e-3  # metres, added to the costs of transitions, so that none is infinitely likely
+DRAWN = 1000  # random numbers that are drawn at a time
 LONGEST = 3600.0  # seconds of a walk that is made in memory
 
 
@@ -88,12 +89,14 @@ def cut_walk(
     if not 0 < seconds < np.inf:
         raise MocapError(f"A walk must last longer than 0 s, got {seconds} s.")
     fps = motion_graph.fps
+    stored = motion_graph.graph.edges(keys=True, data="frames")
+    frames_of = {(start, end, key): count for start, end, key, count in stored}
     yielded = 0  # frames of the pieces that have been yielded
     frames = 0  # of the piece
     walk: list[Edge] = []
     for edge in edges:
         walk.append(edge)
-        frames += motion_graph.graph.edges[edge]["frames"]
+        frames += frames_of[edge]
         ends = yielded + frames >= seconds * fps
         if ends or frames >= piece * fps:
             yield walk
@@ -126,6 +129,8 @@ def wander(
     random = np.random.default_rng(seed)
     node = sorted(graph)[random.integers(len(graph))] if start is None else start
     require_node(motion_graph, node)
+    settle_frames = settle * fps
+    draws = _draws(random)
     frames = 0
     since = 0  # frames of clip since the last transition
     exits_of: dict[Node, tuple[_Exits, _Exits]] = {}  # of the nodes visited so far
@@ -133,14 +138,21 @@ def wander(
         if node not in exits_of:
             exits_of[node] = _exits(graph, node, "clip"), _exits(graph, node, "transition")
         onward, leaving = exits_of[node]
-        exits = leaving if leaving.edges and (since >= settle * fps or not onward.edges) else onward
+        exits = leaving if leaving.edges and (since >= settle_frames or not onward.edges) else onward
         if not exits.edges:
             raise NoWalk(f"The walk ends at node {node} after {frames / fps:.1f} s: prune the graph first.")
-        number = bisect_right(exits.cumulative, random.random())
-        yield exits.edges[number]
-        node = exits.edges[number][1]
+        number = bisect_right(exits.cumulative, next(draws))
+        edge = exits.edges[number]
+        yield edge
+        _, node, _ = edge
         frames += exits.frames[number]
         since = since + exits.frames[number] if exits is onward else 0
+
+
+def _draws(random: np.random.Generator) -> Iterator[float]:
+    """Yield uniform random numbers, drawn many at a time: the same ones as one at a time."""
+    while True:
+        yield from random.random(DRAWN).tolist()
 
 
 class _Exits(NamedTuple):

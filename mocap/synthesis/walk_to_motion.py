@@ -23,6 +23,8 @@ from mocap.feet.footplants import mark_plants
 from mocap.graphs.edge_tables import Edge, EdgeTable, edge_table
 from mocap.graphs.motion_graph import MotionGraph, require_graph
 
+EDGE_FIELDS = 3  # start, end and key
+
 
 class Seam(NamedTuple):
     """A transition on a walk: the `frame` of the motion at which it starts, and its `cost` in metres."""
@@ -106,7 +108,7 @@ def require_edges(walk: object) -> None:
     if not isinstance(walk, Sequence):
         raise MocapError(f"{needs}, got {described(walk)}: synthesis.random_walk makes one.")
     for edge in walk:
-        if not (isinstance(edge, list | tuple) and len(edge) == len(("start", "end", "key"))):
+        if not isinstance(edge, list | tuple) or len(edge) != EDGE_FIELDS:
             raise MocapError(f"{needs}, got {described(edge)} in it: synthesis.random_walk makes one.")
     if not walk:
         raise NoWalk("The walk has no edges.")
@@ -240,4 +242,6 @@ def _transformed_frames(
         roots[of_clip] = motion_graph.clips[clip].root_positions[frames[of_clip, 1]]
         local_rotations[of_clip] = motion_graph.clips[clip].rotations[frames[of_clip, 1]]
     transform = PlanarTransform(*(np.asarray(field)[chosen] for field in transforms))
-    return transform.apply_frames(roots, local_rotations)
+    # In place, because the copy in `apply_frames` would take longer than the gathering.
+    local_rotations[:, 0] = rotations.multiply(rotations.about_y(transform.angle), local_rotations[:, 0])
+    return transform.apply_points(roots), local_rotations

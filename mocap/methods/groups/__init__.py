@@ -6,8 +6,9 @@ whole group, simulated beforehand. Nodes are configurations that recur. A search
 that passes given points and avoids obstacles. Then a character of a motion graph follows the path of each
 member.
 
-Use these functions if a group stays together and must find its path. `steering.walk_crowd` is for a few
-characters whose given paths cross.
+Use these functions if a group stays together and must find its path: `lead_group` finds it, and `walk_group`
+gives each member a character. `plan_group` and `steer_group` are its two parts, for experiments.
+`steering.walk_crowd` is for characters whose given paths cross.
 
 Only the abstract of [LCF05] was available. It is the source of the nodes by clustering, of the clips that
 join them by constrained simulation, and of the search that known bounds accelerate. All other parts are ours.
@@ -20,7 +21,7 @@ Reading order (notebook 19)
 4. `group_graphs`: the graph, and the trajectories of a walk through it
 5. `group_storage`: save a graph to .npz and load it
 6. `planning`: points, obstacles, and a search for a path
-7. `group_steering`: steering without a plan, and the faster of steering and planning
+7. `group_steering`: `lead_group`, the faster of steering and planning, and steering without a plan
 8. `group_walkers`: a character of a motion graph for each member
 9. `tuned`: the constants that trials chose
 

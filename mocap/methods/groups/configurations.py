@@ -21,6 +21,8 @@ from mocap.methods.groups.tuned import TUNED
 EQUAL_COSTS = 1e-6
 EQUAL = 1e-9
 
+CACHED = 200_000  # costs that are computed at a time, which stay in the processor's cache
+
 TINY = 1e-12  # m², the correlation of positions and velocities below which there is no best rotation
 
 
@@ -136,13 +138,26 @@ def _alternate(first: Configuration, second: Configuration, start: float, rounds
     match = Match(np.full(len(rotation), np.inf), np.zeros(0, int), rotation, translation)
     for _ in range(rounds):
         previous = match.rms
-        squares = assignment_costs(first, second, match.rotation, match.translation)
-        # Integers have no rounding errors: orders of equal cost stay equal.
-        order = np.array([linear_sum_assignment(costs)[1] for costs in whole_steps(squares, EQUAL_COSTS)])
-        match = _align(first, second, order)
+        match = _align(first, second, _best_orders(first, second, match.rotation, match.translation))
         if (match.rms > previous - EQUAL).all():
             break
     return match
+
+
+def _best_orders(
+    first: Configuration, second: Configuration, rotation: Points, translation: Points
+) -> Indices:
+    """Find the order of the second's members that matches the first's at the least cost, (M, N)."""
+    pairs, members = first.positions.shape
+    block = max(1, CACHED // members**2)
+    orders = []
+    for start in range(0, pairs, block):
+        rows = slice(start, start + block)
+        groups = (Configuration(*(field[rows] for field in group)) for group in (first, second))
+        squares = assignment_costs(*groups, rotation[rows], translation[rows])
+        # Integers have no rounding errors: orders of equal cost stay equal.
+        orders += [linear_sum_assignment(costs)[1] for costs in whole_steps(squares, EQUAL_COSTS)]
+    return np.array(orders)
 
 
 def _align(first: Configuration, second: Configuration, order: Indices) -> Match:
@@ -179,21 +194,19 @@ def assignment_costs(
     """
     aligned_positions = rotation[:, None] * second.positions + translation[:, None]
     aligned_velocities = rotation[:, None] * second.velocities
-    costs = _squared_differences(first.velocities, aligned_velocities)
-    costs *= TUNED.velocity_seconds**2
-    costs += _squared_differences(first.positions, aligned_positions)
-    return costs
+    rows = _coordinates(first.positions, first.velocities)
+    columns = _coordinates(aligned_positions, aligned_velocities)
+    # |a - b|² = |a|² - 2 a·b + |b|², whose middle term is a product of matrices.
+    costs = rows @ (-2 * columns.swapaxes(1, 2))
+    costs += (rows**2).sum(axis=2)[:, :, None]
+    costs += (columns**2).sum(axis=2)[:, None]
+    return np.asarray(costs)
 
 
-def _squared_differences(first: Points, second: Points) -> Array:
-    """Compute |a - b|² for all pairs of numbers of two rows, (M, N, N) from (M, N) complex each."""
-    # By parts: the real and the imaginary part of an array (M, N, N) are slow to read.
-    real = first.real[:, :, None] - second.real[:, None]
-    imaginary = first.imag[:, :, None] - second.imag[:, None]
-    real *= real
-    imaginary *= imaginary
-    real += imaginary
-    return real
+def _coordinates(positions: Points, velocities: Points) -> Array:
+    """Return the coordinates between which costs are squared distances, (M, N, 4): p and τ v by parts."""
+    scaled = TUNED.velocity_seconds * velocities
+    return np.stack([positions.real, positions.imag, scaled.real, scaled.imag], axis=2)
 
 
 class Clusters(NamedTuple):

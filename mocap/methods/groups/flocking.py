@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Mask, Points
+from mocap._shared.arrays import Array, Indices, Points, ranges
 from mocap._shared.records import NamedTuple
 from mocap.errors import MocapError
 from mocap.methods.groups.tuned import TUNED
@@ -23,7 +23,7 @@ BODY = 0.35  # metres that a member keeps from a wall
 
 
 SELF = 1e9  # metres, a distance of each member from itself at which no rule applies
-SCREEN = 1e-3  # metres by which more pairs pass the quick test of their distances, in 32 bits
+SCREEN = 1e-6  # metres by which members may be farther apart along z: above all rounding
 STILL = 1e-9  # m/s or m/s², a divisor for members that do not move
 
 Disc = tuple[complex, float]
@@ -175,12 +175,12 @@ def advance(
     velocities = velocities * np.clip(speeds, rules.slowest, rules.fastest) / np.maximum(speeds, STILL)
     positions = group.positions + velocities / RATE
     for _ in range(TUNED.separations):
-        pushes = push_apart(positions, APART + TUNED.spare)
-        if room == np.inf and not pushes.any():
+        moved = positions + push_apart(positions, APART + TUNED.spare)
+        excess = moved.imag - np.clip(moved.imag, -room, room)
+        moved = moved - 1j * np.clip(excess, -TUNED.wall_push, TUNED.wall_push)
+        if np.array_equal(moved, positions):
             break
-        positions = positions + pushes
-        excess = positions.imag - np.clip(positions.imag, -room, room)
-        positions = positions - 1j * np.clip(excess, -TUNED.wall_push, TUNED.wall_push)
+        positions = moved
     return Configuration(positions, (positions - group.positions) * RATE)
 
 
@@ -192,30 +192,73 @@ def push_apart(positions: Points, distance: float) -> Points:
     >>> push_apart(np.array([0j, 0.4 + 0j]), 0.6).round(2)
     array([-0.1+0.j,  0.1+0.j])
     """
-    displacements = np.zeros(positions.shape, complex)
-    *group, member = np.nonzero(near_to_any(positions, distance))
-    if not len(member):
-        return displacements
-    # Only of the members with anyone near: in most frames there are few.
-    offsets = positions[*group, member][:, None] - positions[*group]
-    distances = np.abs(offsets)
-    distances[np.arange(len(member)), member] += SELF
-    pushes = offsets / distances * (distance - distances) / 2
-    displacements[*group, member] = np.where(distances < distance, pushes, 0).sum(-1)
-    return displacements
+    return pushes(positions, near_pairs(positions, distance), distance)
 
 
-def near_to_any(positions: Points, distance: float) -> Mask:
-    """Tell which members, (..., N), may have one nearer than a distance: all who do, and few more."""
-    middle = positions.mean(axis=-1, keepdims=True)
-    offsets = (positions - middle).astype(np.complex64)
-    z = offsets.real[..., :, None] - offsets.real[..., None, :]
-    x = offsets.imag[..., :, None] - offsets.imag[..., None, :]
-    z *= z
-    x *= x
-    z += x
-    # Everyone is near to himself.
-    return np.asarray(np.count_nonzero(z < (distance + SCREEN) ** 2, axis=-1) > 1)
+class Pairs(NamedTuple):
+    """Pairs of members of the same group: their indices in the flattened positions, and their distances."""
+
+    first: Indices
+    second: Indices
+    distances: Array
+
+
+def near_pairs(positions: Points, distance: float) -> Pairs:
+    """Find the pairs of members, (..., N), nearer than a distance, each pair once [ours].
+
+    The members of each group are sorted by z. Only those that follow one another within the distance along z
+    are compared, a few pairs where all would be N (N - 1) / 2.
+
+    Examples
+    --------
+    Two groups of three members. In the first, the members 0 and 2 are near each other, and in the second
+    nobody is:
+
+    >>> near_pairs(np.array([[0j, 5 + 0j, 0.3j], [0j, 1 + 0j, 2 + 0j]]), 0.6)
+    Pairs(first=array([0]), second=array([2]), distances=array([0.3]))
+    """
+    members = positions.shape[-1]
+    groups = positions.reshape(-1, members)
+    order = np.argsort(groups.real, axis=1)
+    numbers = (order + members * np.arange(len(groups))[:, None]).ravel()
+    ordered = positions.ravel()[numbers]
+    # The groups are laid out one behind the other, too far apart for pairs of members of two groups.
+    spacing = np.ptp(groups.real) + 2 * distance
+    along = ordered.real + spacing * np.repeat(np.arange(len(groups)), members)
+    rank = np.arange(len(along))
+    followers = np.searchsorted(along, along + distance + SCREEN) - rank - 1
+    first = np.repeat(rank, followers)
+    second = ranges(rank + 1, followers)
+    distances = np.abs(ordered[first] - ordered[second])
+    is_near = distances < distance
+    return Pairs(numbers[first[is_near]], numbers[second[is_near]], distances[is_near])
+
+
+def pushes(positions: Points, pairs: Pairs, distance: float) -> Points:
+    """Compute the displacements (..., N) that move the members of each pair to a distance, half for each.
+
+    Examples
+    --------
+    >>> positions = np.array([0j, 0.4 + 0j])
+    >>> pushes(positions, near_pairs(positions, 0.6), 0.8).round(2)
+    array([-0.2+0.j,  0.2+0.j])
+    """
+    displacements = np.zeros(positions.size, complex)
+    first, second, distances = pairs
+    if not len(first):
+        return displacements.reshape(positions.shape)
+    members = positions.shape[-1]
+    offsets = positions.ravel()[first] - positions.ravel()[second]
+    halves = offsets / distances * (distance - distances) / 2
+    is_pushed = np.zeros(positions.size, bool)
+    is_pushed[first] = True
+    is_pushed[second] = True
+    row = np.cumsum(is_pushed) - 1  # of each pushed member
+    terms = np.zeros((np.count_nonzero(is_pushed), members), complex)  # of each of them, by each other member
+    terms[row[first], second % members] = halves
+    terms[row[second], first % members] = -halves
+    displacements[is_pushed] = terms.sum(axis=1)
+    return displacements.reshape(positions.shape)
 
 
 def simulate(

@@ -142,21 +142,19 @@ def separate(paths: Points) -> tuple[Points, bool]:
     frames = np.arange(len(paths))
     from_end = np.minimum(frames, frames[::-1])
     weights = np.clip((from_end - TUNED.held_frames + 1) / TUNED.ease, 0, 1)[:, None]
+    distance = APART + TUNED.parting_spare
     displacements = np.zeros_like(paths)
     for _ in range(TUNED.parting_rounds):
-        if _all_apart(paths + displacements):
-            return paths + displacements, True
-        push = flocking.push_apart(paths + displacements, APART + TUNED.parting_spare)
+        separated = paths + displacements
+        pairs = flocking.near_pairs(separated, distance)
+        if (pairs.distances >= APART).all():
+            return separated, True
+        push = flocking.pushes(separated, pairs, distance)
         for _ in range(TUNED.smoothings):
             push[1:-1] = (push[:-2] + 2 * push[1:-1] + push[2:]) / 4
         displacements += TUNED.overshoot * push * weights
-    return paths + displacements, _all_apart(paths + displacements)
-
-
-def _all_apart(paths: Points) -> bool:
-    """Tell whether all members keep 0.60 m apart in all frames, (F, N)."""
-    doubtful = flocking.near_to_any(paths, APART).any(axis=1)  # frames that the quick test does not clear
-    return bool(flocking.nearest_two(paths[doubtful]).min(initial=np.inf) >= APART)
+    separated = paths + displacements
+    return separated, len(flocking.near_pairs(separated, APART).distances) == 0
 
 
 def clips_from(

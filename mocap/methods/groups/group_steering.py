@@ -1,7 +1,7 @@
 """Group steering without a plan: a flock steers to the next point and away from obstacles.
 
-Steering is enough on open ground. From a pocket of obstacles a flock does not escape. `lead_group` returns
-the faster of steering and planning.
+Steering is enough on open ground. From a pocket of obstacles a flock does not escape. `lead_group` is the
+function to call for a group that must arrive: it returns the faster of steering and planning.
 """
 
 from collections.abc import Iterator, Sequence
@@ -23,6 +23,9 @@ def steer_group(
     start: Configuration, scene: Scene, *, rules: Flock | None = None, seed: int = 0, limit: float = LIMIT
 ) -> tuple[Configuration, int]:
     """Simulate a flock that steers to each point in turn and away from discs [Rey87].
+
+    The flock may stay in a pocket of obstacles, and come too near to them. `lead_group` also plans, and
+    returns a solution without collisions.
 
     Parameters
     ----------

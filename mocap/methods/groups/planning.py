@@ -236,7 +236,8 @@ def plan_group(
     Weighted A*: the next state to expand has the smallest sum of elapsed time and `weight` times the expected
     remaining time. The estimate is the distance over all remaining points at 1.05 m/s, plus 1.3 s per radian
     between the heading and the next point. Of similar states, at one node within a cell of 0.7 m and 0.3 rad
-    and with the same next point, only the first is expanded.
+    and with the same next point, only the first is expanded. `lead_group` also steers, and returns the
+    faster of both.
 
     Parameters
     ----------
