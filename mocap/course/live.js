@@ -91,8 +91,13 @@
 
   /** A drawing on a canvas, in units of which it is 640 wide. */
   class Sheet {
-    /** @param {HTMLCanvasElement} canvas */
-    constructor(canvas) {
+    /**
+     * @param {HTMLCanvasElement} canvas
+     * @param {HTMLElement} words beside it, which `say` fills
+     */
+    constructor(canvas, words) {
+      words.replaceChildren();
+      this.words = words;
       const pen = canvas.getContext("2d");
       if (!pen) throw new Error("The browser draws on no canvas.");
       const sharp = Math.max(1, (canvas.clientWidth * devicePixelRatio) / SIZE[0]);
@@ -149,6 +154,19 @@
         y + radius * Math.sin(a),
       ]);
       this.line(points, colour, 1.2, [3, 5]);
+    }
+
+    /**
+     * Write beside the drawing, where words wrap.
+     * @param {string} text
+     * @param {string} colour of a line in front of it, if there is one
+     */
+    say(text, colour = "") {
+      const words = document.createElement("span");
+      words.textContent = text;
+      if (colour) words.style.borderLeft = `.8em solid ${colour}`;
+      if (colour) words.style.paddingLeft = ".4em";
+      this.words.append(words);
     }
 
     /**
@@ -259,12 +277,7 @@
           const end = [Math.sin(radians(angle)), Math.cos(radians(angle))].map((value) => -BALL * value);
           const name = ["heading", "homework_heading"][k];
           sheet.line([centre, [centre[0] + end[0], centre[1] + end[1]]], COLOURS[k], k ? 3 : 9);
-          sheet.text(
-            `${name}: ${Math.round(angle)}°`.replace("-", "−"),
-            [330 + 130 * k, 22],
-            "left",
-            COLOURS[k],
-          );
+          sheet.say(`${name}: ${Math.round(angle)}°`.replace("-", "−"), COLOURS[k]);
         });
       },
     },
@@ -290,9 +303,9 @@
             carried[k].map((/** @type {number} */ v, /** @type {number} */ c) => root[c] + far * v),
           );
           sheet.line(ends.map(see), COLOURS[k], 3);
-          sheet.text(name, [460, 40 + 24 * k], "left", COLOURS[k]);
+          sheet.say(name, COLOURS[k]);
         });
-        sheet.text(`rotated by ${Math.round(turned)}°`, [460, 130]);
+        sheet.say(`rotated by ${Math.round(turned)}°`);
       },
     },
     "04-blending:ways": {
@@ -332,7 +345,7 @@
           );
           sheet.dot(see(tips[n]), 6, COLOURS[n]);
           sheet.dot(put(fraction, turned[n]), 6, COLOURS[n]);
-          sheet.text(`${name}: ${Math.round(turned[n])}°`, [330, 14 + 18 * n], "left", COLOURS[n]);
+          sheet.say(`${name}: ${Math.round(turned[n])}°`, COLOURS[n]);
         });
       },
     },
@@ -385,10 +398,200 @@
           3,
         );
         const words = `knee bent by ${Math.round(bend)}°${reached ? "" : ", out of reach"}`;
-        sheet.text(words, [315, 22], "center");
+        sheet.say(words);
+      },
+    },
+    "06-pruning:tarjan": {
+      compute({ step }, { successors }) {
+        const states = tarjanStates(successors);
+        return states[Math.min(step, states.length - 1)];
+      },
+      draw(sheet, { message, node, numbers, lows, stack, components, values }, data) {
+        const put = eightNodes(sheet, data, []);
+        numbers.forEach((/** @type {number} */ number, /** @type {number} */ n) => {
+          const part = components[n];
+          const [x, y] = put(data.places[n]);
+          const onStack = stack.includes(n + 1);
+          const plain = onStack ? "#f0c04a" : "#fff";
+          sheet.dot([x, y], 17, n + 1 === node ? ORANGE : "#222");
+          sheet.dot([x, y], 14, part < 0 ? plain : PARTS[part]);
+          sheet.text(String(n + 1), [x, y + 5], "center", part < 0 ? "#222" : "#fff");
+          if (number >= 0) sheet.text(`${number} / ${lows[n]}`, [x + 19, y + 22]);
+        });
+        sheet.say(`step ${values.step}: ${message}`);
+        const waiting = stack.filter((/** @type {number} */ other) => other >= 0);
+        sheet.say(waiting.length ? `stack: ${waiting.join(" ")}` : "the stack is empty", "#f0c04a");
+        sheet.say("beside a node: its number / its low link");
+      },
+    },
+    "07-walks-and-search:eight_nodes": {
+      compute({ step }, { lengths }) {
+        const events = searchEvents(lengths, 6, 2, 8).slice(0, step);
+        const complete = events.filter(({ fate }) => fate === "complete");
+        const best = complete.sort((a, b) => a.cost - b.cost)[0];
+        const last = events.at(-1);
+        const message = last
+          ? `${last.walk.join(" → ")} (${last.cost.toFixed(1)}): ${last.fate}`
+          : "start at 6";
+        return {
+          costs: events.map(({ cost }) => cost),
+          best: best?.walk ?? [],
+          walk: last?.walk ?? [6],
+          message,
+          events,
+        };
+      },
+      draw(sheet, { events, best, walk, message, values }, data) {
+        const put = eightNodes(sheet, data, [
+          [walk, GREY, 9],
+          [best, ORANGE, 4],
+        ]);
+        data.places.forEach((/** @type {Vector} */ place, /** @type {number} */ n) => {
+          const [x, y] = put(place);
+          sheet.dot([x, y], 17, "#222");
+          sheet.dot([x, y], 14, [6, 2].includes(n + 1) ? "#f0c04a" : "#fff");
+          sheet.text(String(n + 1), [x, y + 5], "center", "#222");
+        });
+        sheet.say(`step ${values.step}: ${message}`);
+        const left = events.filter((/** @type {any} */ event) => event.fate === "cut").length;
+        sheet.say(`${events.length} walks looked at, ${left} cut by the bound`);
+        sheet.say(best.length ? "the best walk so far" : "no walk to 2 yet", best.length ? ORANGE : "");
       },
     },
   };
+
+  // ---- the eight nodes ----
+
+  const PARTS = [BLUE, GREEN, "#aa3377", "#666"];
+
+  /**
+   * Tarjan's algorithm: the state after each step, with numbers, low links and components by node, -1 for none.
+   * @param {number[][]} successors of the nodes 1, 2, ...
+   */
+  function tarjanStates(successors) {
+    const count = successors.length;
+    const [numbers, lows, components] = [0, 1, 2].map(() => Array.from({ length: count }, () => -1));
+    /** @type {number[]} */
+    const stack = [];
+    /** @type {Record<string, any>[]} */
+    const states = [];
+    let found = 0;
+    let entered = 0;
+    /**
+     * @param {string} message
+     * @param {number} node
+     */
+    const note = (message, node) => {
+      const padded = [...stack, ...Array.from({ length: count - stack.length }, () => -1)];
+      states.push({
+        message,
+        node,
+        numbers: [...numbers],
+        lows: [...lows],
+        stack: padded,
+        components: [...components],
+      });
+    };
+    /** @param {number} node */
+    const visit = (node) => {
+      const n = node - 1;
+      numbers[n] = entered;
+      lows[n] = entered;
+      entered += 1;
+      stack.push(node);
+      note(`enter ${node}`, node);
+      for (const child of successors[n]) {
+        if (numbers[child - 1] < 0) {
+          visit(child);
+          lows[n] = Math.min(lows[n], lows[child - 1]);
+          note(`back in ${node} from ${child}`, node);
+        } else if (stack.includes(child)) {
+          lows[n] = Math.min(lows[n], numbers[child - 1]);
+          note(`${node} → ${child} closes a cycle`, node);
+        } else {
+          note(`${child} has left the stack`, node);
+        }
+      }
+      if (lows[n] !== numbers[n]) return;
+      for (const other of stack.splice(stack.indexOf(node))) components[other - 1] = found;
+      found += 1;
+      note(`${node} is the first of its component`, node);
+    };
+    for (let node = 1; node <= count; node++) if (numbers[node - 1] < 0) visit(node);
+    return states;
+  }
+
+  /**
+   * Depth-first branch and bound for the shortest walk, the cheapest edge first: what happens to each walk.
+   * @param {number[][][]} lengths for each node [successor, length]
+   * @param {number} from
+   * @param {number} goal
+   * @param {number} longest
+   */
+  function searchEvents(lengths, from, goal, longest) {
+    /** @type {{ walk: number[], cost: number, fate: string }[]} */
+    const events = [];
+    const waiting = [{ cost: 0, walk: [from] }];
+    let best = Infinity;
+    for (let next = waiting.pop(); next; next = waiting.pop()) {
+      const { cost, walk } = next;
+      const node = walk[walk.length - 1];
+      const isShort = walk.length <= longest;
+      let fate = "cut";
+      if (cost < best && node === goal) {
+        fate = "complete";
+        best = cost;
+      } else if (cost < best) {
+        const added = isShort
+          ? lengths[node - 1].map(([child, more]) => ({ cost: cost + more, walk: [...walk, child] }))
+          : [];
+        const ended = isShort ? "a dead end" : "too long";
+        fate = added.length ? "expanded" : ended;
+        waiting.push(...added.sort((a, b) => b.cost - a.cost));
+      }
+      events.push({ walk, cost, fate });
+    }
+    return events;
+  }
+
+  /**
+   * Draw the arrows of the eight nodes, below walks through them; return the map of their places.
+   * @param {Sheet} sheet
+   * @param {{ places: Vector[], successors: number[][] }} graph
+   * @param {[number[], string, number][]} walks
+   * @returns {(place: Vector) => Vector}
+   */
+  function eightNodes(sheet, { places, successors }, walks) {
+    const [xs, ys] = [0, 1].map((c) => places.map((place) => place[c]));
+    const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
+    const scale = Math.min(480 / (right - left), 210 / (high - low));
+    /** @param {Vector} place */
+    const put = ([x, y]) => [320 + scale * (x - (left + right) / 2), 168 - scale * (y - (low + high) / 2)];
+    for (const [walk, colour, width] of walks) {
+      const points = walk.map((node) => put(places[node - 1]));
+      sheet.line(points, colour, width);
+    }
+    successors.forEach((children, n) => {
+      const from = put(places[n]);
+      for (const child of children) {
+        const to = put(places[child - 1]);
+        const far = Math.hypot(to[0] - from[0], to[1] - from[1]);
+        if (!far) {
+          sheet.circle([from[0], from[1] - 20], 14, sheet.ink);
+          continue;
+        }
+        const [ux, uy] = [(to[0] - from[0]) / far, (to[1] - from[1]) / far];
+        const tip = [to[0] - 18 * ux, to[1] - 18 * uy];
+        const barbs = [-1, 1].map((side) => [
+          tip[0] - 9 * ux - 5 * side * uy,
+          tip[1] - 9 * uy + 5 * side * ux,
+        ]);
+        sheet.line([from, tip], sheet.ink, 1.4);
+        sheet.line([barbs[0], tip, barbs[1]], sheet.ink, 1.8);
+      }
+    });
+    return put;
+  }
 
   // ---- on a page ----
 
@@ -407,9 +610,11 @@
     canvas.setAttribute("aria-label", alt);
     /** @type {Values} */
     const values = {};
+    const words = document.createElement("p");
+    words.className = "said";
     const show = () => {
       const found = { ...experiment.compute(values, data), values };
-      experiment.draw(new Sheet(canvas), found, data);
+      experiment.draw(new Sheet(canvas, words), found, data);
     };
     const rows = Object.entries(controls).map(([name, [low, high, step, initial]]) => {
       const label = document.createElement("label");
@@ -428,7 +633,7 @@
       return label;
     });
     place.querySelector(".mocap-still")?.remove();
-    place.append(...rows, canvas);
+    place.append(...rows, words, canvas);
     addEventListener("resize", show);
     show();
   }

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mocap import plain
+from mocap import graphs, plain
 from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
 from mocap.body import rotations
@@ -16,10 +16,17 @@ from mocap.body.euler import from_euler
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
+from mocap.course import diagrams
+from mocap.course.diagrams.branching import edge_lengths, search_events
+from mocap.course.diagrams.small_graphs import EIGHT_PLACES
 from mocap.datasets.samples import sample
 
 HIP = 0.95  # metres above the ground
 FORWARD = np.array([0, 0.3, 1])  # the direction in which a knee bends
+NODES = range(1, 9)  # of the graph of Figure 4 [KGP02]
+START = 6  # the node at which walks of the search begin
+GOAL = 2
+LONGEST = 8  # edges of a walk
 FIRST = np.radians([20, -60, -70])  # Euler angles z, x and y of a bone
 LAST = np.radians([-60, 50, 75])
 
@@ -114,6 +121,67 @@ def leg(ahead: float, height: float) -> dict[str, Any]:
     return {"knee": places[0, [2, 1]], "ankle": places[1, [2, 1]], "bend": np.degrees(bend)}
 
 
+def tarjan(step: int) -> dict[str, Any]:
+    """Return the state of Tarjan's algorithm on the eight nodes after some steps.
+
+    Returns
+    -------
+    The message and the node of the step, and the number, low link and component of each node, -1 for none.
+    The stack is padded by -1.
+
+    Examples
+    --------
+    >>> tarjan(step=0)["message"], tarjan(step=0)["stack"]
+    ('enter 1', [1, -1, -1, -1, -1, -1, -1, -1])
+    """
+    states = diagrams.tarjan_states(_successors())
+    state = states[min(int(step), len(states) - 1)]
+    component = {node: number for number, part in enumerate(state.components) for node in part}
+    state_of_nodes: dict[str, Any] = {"message": state.message, "node": state.node}
+    state_of_nodes["numbers"] = [state.number.get(node, -1) for node in NODES]
+    state_of_nodes["lows"] = [state.low.get(node, -1) for node in NODES]
+    state_of_nodes["stack"] = [*state.stack, *[-1] * (len(NODES) - len(state.stack))]
+    state_of_nodes["components"] = [component.get(node, -1) for node in NODES]
+    return state_of_nodes
+
+
+def eight_nodes(step: int) -> dict[str, Any]:
+    """Return the walks that branch and bound has looked at after some steps, from node 6 to node 2.
+
+    Returns
+    -------
+    The costs of the walks, the best walk so far, the last walk, and a message.
+
+    Examples
+    --------
+    >>> eight_nodes(step=1)["message"]
+    '6 (0.0): expanded'
+    """
+    events = search_events(edge_lengths(graphs.notes_example()), START, GOAL, LONGEST)[: int(step)]
+    complete = [event for event in events if event.fate == "complete"]
+    best = min(complete, key=lambda event: event.cost).walk if complete else ()
+    costs = [event.cost for event in events]
+    if not events:
+        return {"costs": costs, "best": best, "walk": (START,), "message": "start at 6"}
+    path = " → ".join(map(str, events[-1].walk))
+    message = f"{path} ({events[-1].cost:.1f}): {events[-1].fate}"
+    return {"costs": costs, "best": best, "walk": events[-1].walk, "message": message}
+
+
+def _successors() -> dict[int, list[int]]:
+    """Return the successors of the eight nodes."""
+    graph = graphs.notes_example()
+    return {node: sorted(graph.successors(node)) for node in sorted(graph)}
+
+
+def _eight_nodes_data() -> dict[str, Any]:
+    """Return the places and the successors of the eight nodes, with the lengths of the edges."""
+    lengths = edge_lengths(graphs.notes_example())
+    places = [[float(value) for value in EIGHT_PLACES[node]] for node in NODES]
+    rows = [[[child, length] for child, length in lengths[node].items()] for node in NODES]
+    return {"places": places, "successors": list(_successors().values()), "lengths": rows}
+
+
 def _leg_lengths() -> tuple[float, float]:
     """Return the lengths of thigh and shank of the body of the samples, metres."""
     skeleton = sample("walk_straight").skeleton
@@ -148,11 +216,16 @@ OTHER_QUARTER = (-90, 90, 5, -40)
 FRACTION = (0, 1, 0.05, 0.25)
 AHEAD = (-0.5, 0.7, 0.05, 0.2)  # metres
 HEIGHT = (0, 0.5, 0.05, 0.25)  # metres
+STEPS_OF_TARJAN = (0, 21, 1, 9)
+STEPS_OF_SEARCH = (0, 13, 1, 11)
 LEAN = LiveExperiment({"tip": TIP, "towards": TOWARDS, "facing": FACING}, lean, _body)
 GIMBALS = LiveExperiment({"z": QUARTER, "x": QUARTER, "y": OTHER_QUARTER}, gimbals, _body)
 WAYS = LiveExperiment({"fraction": FRACTION}, interpolations, _ways_data)
 LEG = LiveExperiment({"ahead": AHEAD, "height": HEIGHT}, leg, _leg_data)
+TARJAN = LiveExperiment({"step": STEPS_OF_TARJAN}, tarjan, _eight_nodes_data)
+EIGHT = LiveExperiment({"step": STEPS_OF_SEARCH}, eight_nodes, _eight_nodes_data)
 LIVE = {"03b-angles:lean": LEAN, "03b-angles:gimbals": GIMBALS, "04-blending:ways": WAYS, "04b-feet:leg": LEG}
+LIVE |= {"06-pruning:tarjan": TARJAN, "07-walks-and-search:eight_nodes": EIGHT}
 """The experiments, by the notebook and the name of the experiment in it."""
 
 
@@ -164,4 +237,5 @@ def numbers_of(computed: dict[str, Any]) -> Array:
     >>> len(numbers_of(leg(ahead=0.2, height=0.25)))
     5
     """
-    return np.concatenate([np.ravel(np.asarray(value, float)) for value in computed.values()])
+    values = [value for value in computed.values() if not isinstance(value, str)]
+    return np.concatenate([np.ravel(np.asarray(value, float)) for value in values])

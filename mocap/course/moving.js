@@ -7,7 +7,7 @@ for (const moving of document.querySelectorAll(".moving")) {
   const { labels, pictures } = JSON.parse(packed.text);
   slider.addEventListener("input", () => {
     const place = Number(slider.value);
-    picture.src = `data:image/png;base64,${pictures[place]}`;
+    picture.src = pictures[place];
     label.textContent = labels[place];
     slider.setAttribute("aria-valuetext", labels[place]);
   });

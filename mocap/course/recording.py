@@ -15,7 +15,7 @@ from PIL import Image
 
 from mocap.widgets.experiments import Experiment
 
-ROOM = 200_000  # bytes for the pictures of one experiment
+ROOM = 100_000  # bytes for the pictures of one experiment
 COUNTS = (15, 11, 8, 5)  # of positions; the most that fit in the room
 SIZES = (1.0, 0.8, 0.64, 0.5, 0.4, 0.3, 0.2)  # of the pictures, as shares of their width
 COLOURS = 64

@@ -42,6 +42,7 @@ STILL_NOTES = {
 SCRIPT = re.compile(r'<script type="module">.*?</script>', re.DOTALL)
 ALT = re.compile(r'\balt="([^"]*)"')
 HEAVY = re.compile(r'(?s)<script type="module">(.*?)</script>|src="data:image/png;base64,([^"]+)"')
+RECORDED = re.compile(r'"data:image/png;base64,([^"]+)"')  # a picture of a recording
 AGAIN = re.compile(r"<p><small>Run this cell[^<]*</small></p>")
 ABOVE = NOTE.format(
     "Players, sliders, quizzes, bets and the blind test answer you on these pages; code and some "
@@ -123,8 +124,8 @@ def build_site(
             _share(notebook, out)
             notebook.cells.insert(1, nbformat.v4.new_markdown_cell(ABOVE, id="note"))
             if file.stem in terms:
-                entries = "\n".join(f"single: {term}" for term in terms[file.stem])
-                index = nbformat.v4.new_markdown_cell(f"```{{index}}\n{entries}\n```", id="index")
+                entries = "\n".join(f"```{{index}} single: ! {term}\n```" for term in terms[file.stem])
+                index = nbformat.v4.new_markdown_cell(entries, id="index")
                 notebook.cells.insert(1, index)
             write_file(Path(folder, file.name), nbformat.writes(notebook))
         for page in notebooks.glob("*.md"):
@@ -297,14 +298,14 @@ def _moving(recorded: dict[str, Any]) -> str:
     position = recorded["at"]
     label = html.escape(labels[position])
     name = html.escape(recorded["name"])
-    data = script_json({key: recorded[key] for key in ("labels", "pictures")})
+    pictures = [f"data:image/png;base64,{picture}" for picture in recorded["pictures"]]
+    data = script_json({"labels": labels, "pictures": pictures})
     slider = (
         f'<input type="range" min="0" max="{len(labels) - 1}" value="{position}" aria-valuetext="{label}">'
     )
-    source = f"data:image/png;base64,{recorded['pictures'][position]}"
     return (
         f'<div class="moving"><label>{name} {slider}<output>{label}</output></label>'
-        f'<img alt="{html.escape(recorded["alt"])}" src="{source}">'
+        f'<img alt="{html.escape(recorded["alt"])}" src="{pictures[position]}">'
         f'<script type="application/json">{data}</script></div>'
     )
 
@@ -325,10 +326,13 @@ def _share(notebook: Any, out: Path) -> None:  # noqa: ANN401
         (out / name).write_bytes(content)
         return name
 
+    def picture_of(text: str) -> str:
+        return write(base64.b64decode(text), "png")
+
     def shared(match: re.Match[str]) -> str:
         script, picture = match.groups()
         if not script:
-            return f'loading="lazy" src="{write(base64.b64decode(picture), "png")}"'
+            return f'loading="lazy" src="{picture_of(picture)}"'
         # No module: a browser does not load one where the page is a file.
         text = f"(() => {{{script.replace('export default', 'void')}}})();"
         return f'<script defer src="{write(text.encode(), "js")}"></script>'
@@ -337,7 +341,8 @@ def _share(notebook: Any, out: Path) -> None:  # noqa: ANN401
         for output in cell.get("outputs", ()):
             data = output.get("data", {})
             if "text/html" in data:
-                data["text/html"] = HEAVY.sub(shared, data["text/html"])
+                page = HEAVY.sub(shared, data["text/html"])
+                data["text/html"] = RECORDED.sub(lambda match: f'"{picture_of(match[1])}"', page)
 
 
 def _write_reference(folder: Path) -> list[str]:

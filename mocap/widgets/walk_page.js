@@ -136,6 +136,7 @@ export class Page extends Hands {
     this.scene = new Scene(this.canvas, this.about.figure, PARADE + 2); // and the two moments of a seam
     this.story = new Story(this);
     this.before = performance.now();
+    document.body.classList.toggle("embedded", window !== window.top); // in a frame there is no room for the story
     this.listen();
     this.buttons();
     this.fit();

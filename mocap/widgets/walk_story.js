@@ -339,7 +339,7 @@ export class Story {
   foundWords({ found, line }) {
     if (!found) return "none comes to the end";
     const points = Array.from(line.z, (z, i) => [z, line.x[i]]);
-    return `${Math.round(100 * meanDistance(points, found))} cm off the line`;
+    return `${Math.round(100 * meanDistance(points, found))} cm off the line, before the walk is bent onto it`;
   }
 
   // ---- what is seen ----
