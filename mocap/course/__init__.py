@@ -22,11 +22,12 @@ Reading order
 13. `recording`: positions of an experiment, as pictures for pages without Python
 14. `site`: the course as HTML pages, beside the reference pages of the package
 15. `conf`: how Sphinx makes these pages
-16. `opening`: the course in JupyterLab, and in JupyterLite
-17. `diagrams`: ideas drawn step by step
-18. `lab`: what students wrote is used, and what they thought is kept
-19. `marking`: marks for notebooks handed in, whose code runs sealed
-20. `teaching`: slides and films that are made from the notebooks
+16. `copies`: what a new version changes in a reader's copy, a notebook given anew, and progress
+17. `opening`: the course in JupyterLab, and in JupyterLite
+18. `diagrams`: ideas drawn step by step
+19. `lab`: what students wrote is used, and what they thought is kept
+20. `marking`: marks for notebooks handed in, whose code runs sealed
+21. `teaching`: slides and films that are made from the notebooks
 
 References
 ----------
