@@ -69,10 +69,7 @@ def reset_notebook(folder: Path, copy: Path, number: str, version: str) -> str:
     ------
     MocapError : for a number that no notebook has, and an old notebook that cannot be read.
     """
-    files = [file for file in notebooks_in(folder) if file.name.partition("-")[0] == number]
-    if not files:
-        raise MocapError(f"There is no notebook {shortened(repr(number), 40)}; --reset takes one such as 03.")
-    (file,) = files
+    file = notebook_file(folder, number)
     target = copy / file.name
     notebook = read(file)
     without_checks(notebook)
@@ -89,6 +86,24 @@ def reset_notebook(folder: Path, copy: Path, number: str, version: str) -> str:
     _write_record(copy, version, {**recorded, file.name: _digest(file)})
     answers = f" Your answers are in it: {', '.join(kept)}." if kept else ""
     return f"{sentence}.{answers}"
+
+
+def notebook_file(folder: Path, number: str) -> Path:
+    """Return the file of a notebook.
+
+    Parameters
+    ----------
+    folder : the notebooks of this version.
+    number : that of the notebook, such as 03 or 04b.
+
+    Raises
+    ------
+    MocapError : for a number that no notebook has.
+    """
+    for file in notebooks_in(folder):
+        if file.name.partition("-")[0] == number:
+            return file
+    raise MocapError(f"There is no notebook {shortened(repr(number), 40)}; --reset takes one such as 03.")
 
 
 def without_checks(notebook: Any) -> None:  # noqa: ANN401

@@ -128,6 +128,8 @@ def open_course(copy: Path, options: Sequence[str] = (), reset: str = "") -> int
     if find_spec("jupyterlab") is None:
         raise missing("The course runs in JupyterLab, which is missing", "notebooks")
     root = ["--allow-root"] if getattr(os, "geteuid", lambda: 1)() == 0 else []
+    if reset:
+        copies.notebook_file(stored(), reset)  # before anything is written
     first = str(course_folder(copy) / FIRST)
     print(news(copy, reset), flush=True)
     started = subprocess.Popen([sys.executable, "-m", "jupyterlab", first, *root, *options])
