@@ -104,7 +104,7 @@ WORKS = {
     "course film": f"{ROOT / 'notebooks' / '06-pruning.ipynb'} --still -o pruning.mp4",
     "course board": "-o board",
     "course run": "note.ipynb",
-    "lab": "lab -- --version",
+    "lab": "lab --reset 03 -- --version",
     "completion": "bash",
 }
 # What needs a network, JupyterLite, or the means of Linux; they are in REFUSED.

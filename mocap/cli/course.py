@@ -235,22 +235,24 @@ def run(notebooks: Sequence[Path] = ()) -> None:
 def lab(
     folder: Path = Path("mocap-course"),
     *,
+    reset: str = "",
     jupyter: Annotated[Sequence[str], ALL_BEHIND] = (),
 ) -> int:
-    """Open the course in JupyterLab.
+    """Open the course in JupyterLab, and print what is new in it and which exercises are solved.
 
     Words after -- are passed to JupyterLab as options.
 
     Parameters
     ----------
     folder : folder for a copy of the notebooks, of which existing ones are not changed.
+    reset : number of a notebook, such as 03, to give anew with your answers in it; the old one is kept.
 
     Notes
     -----
     Example: mocap lab -- --no-browser --port 8890
     """
     signal.signal(signal.SIGTERM, signal.SIG_DFL)  # `open_course` keeps waiting after a KeyboardInterrupt
-    return int(open_course(folder, jupyter))
+    return int(open_course(folder, jupyter, reset))
 
 
 COURSE = Group(

@@ -18,18 +18,19 @@ Reading order
 9. `marked_values`: numbers in prose, and the expressions that compute them
 10. `notebooks`: read a notebook, find its cells by their tags and the names that they use, run it
 11. `written`: answers in words, which a person reads
-12. `opening`: the course in JupyterLab, and in JupyterLite
-13. `student_wheel`: the package as a file for students, and the requirement that installs it
-14. `handout`: copies without solutions
-15. `formulas`: formulas as MathML
-16. `recording`: positions of an experiment, as pictures for pages without Python
-17. `live_experiments`: small experiments that run on pages without Python
-18. `site`: the course as HTML pages, beside the reference pages of the package
-19. `conf`: how Sphinx makes these pages
-20. `diagrams`: ideas drawn step by step
-21. `lab`: what students wrote is used, and what they thought is kept
-22. `marking`: marks for notebooks handed in, whose code runs sealed
-23. `teaching`: slides and films that are made from the notebooks
+12. `copies`: what a new version changes in a reader's copy, a notebook given anew, and progress
+13. `opening`: the course in JupyterLab, and in JupyterLite
+14. `student_wheel`: the package as a file for students, and the requirement that installs it
+15. `handout`: copies without solutions
+16. `formulas`: formulas as MathML
+17. `recording`: positions of an experiment, as pictures for pages without Python
+18. `live_experiments`: small experiments that run on pages without Python
+19. `site`: the course as HTML pages, beside the reference pages of the package
+20. `conf`: how Sphinx makes these pages
+21. `diagrams`: ideas drawn step by step
+22. `lab`: what students wrote is used, and what they thought is kept
+23. `marking`: marks for notebooks handed in, whose code runs sealed
+24. `teaching`: slides and films that are made from the notebooks
 
 References
 ----------

@@ -13,7 +13,9 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+from mocap import __version__
 from mocap._shared.atomic import write_file
+from mocap.course import copies
 from mocap.course.notebooks import library, notebooks_in, read
 from mocap.errors import MocapError, missing, shortened
 
@@ -90,8 +92,25 @@ def without_verdicts(text: str) -> str:
     return json.dumps(notebook, ensure_ascii=False, indent=1) + "\n"
 
 
-def open_course(copy: Path, options: Sequence[str] = ()) -> int:
+def news(copy: Path, reset: str = "") -> str:
+    """Give a notebook anew if one is named, and say what is new in the course and what has been solved.
+
+    Parameters
+    ----------
+    copy, reset : as for `open_course`.
+    """
+    sentences = []
+    if reset:
+        sentences.append(copies.reset_notebook(stored(), copy, reset, __version__))
+    sentences.append(copies.record_copy(stored(), copy, __version__))
+    sentences.append(copies.progress(copy / copies.MINE))
+    return "\n".join(filter(None, sentences))
+
+
+def open_course(copy: Path, options: Sequence[str] = (), reset: str = "") -> int:
     """Start JupyterLab on the first notebook, wait until it ends, and return its exit status.
+
+    Before that, print what is new in the course, and what the reader has solved.
 
     Ctrl-C is JupyterLab's: it asks whether to shut down, and a second one ends it.
 
@@ -100,15 +119,19 @@ def open_course(copy: Path, options: Sequence[str] = ()) -> int:
     copy : as for `course_folder`.
     options : for JupyterLab, such as `--no-browser`. The administrator's account gets `--allow-root`, which
         JupyterLab asks for there.
+    reset : the number of a notebook to give anew, with the reader's answers.
 
     Raises
     ------
-    MocapError : if JupyterLab is not installed.
+    MocapError : if JupyterLab is not installed, and for a notebook that does not exist.
     """
     if find_spec("jupyterlab") is None:
         raise missing("The course runs in JupyterLab, which is missing", "notebooks")
     root = ["--allow-root"] if getattr(os, "geteuid", lambda: 1)() == 0 else []
+    if reset:
+        copies.notebook_file(stored(), reset)  # before anything is written
     first = str(course_folder(copy) / FIRST)
+    print(news(copy, reset), flush=True)
     started = subprocess.Popen([sys.executable, "-m", "jupyterlab", first, *root, *options])
     while True:
         try:

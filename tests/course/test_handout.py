@@ -12,6 +12,7 @@ import pytest
 import mocap
 from mocap.cli.main import main
 from mocap.course import opening
+from mocap.course.copies import progress
 from mocap.course.handout import PAGES, TELLING, WHEEL, _merged, hand_out
 from mocap.course.notebooks import notebooks_in, read, solution, tagged
 from mocap.course.opening import stored
@@ -234,3 +235,50 @@ def test_jupyterlite_is_built_of_a_checkout_only(tmp_path, monkeypatch):
 def test_what_a_failing_build_says_is_cut_to_a_short_sentence(tmp_path):
     (tmp_path / "loud.py").write_text("raise SystemExit('x' * 5000)")
     refused("'loud build' failed: xxx", opening._call, str(tmp_path), ["loud", "build"])
+
+
+def edited_copy(folder, changes):
+    """Change cells of a notebook by their tags; return the notebook's file."""
+    file = folder / "03-transforms.ipynb"
+    notebook = nbformat.read(file, 4)
+    for cell in notebook.cells:
+        for tag in cell.metadata.get("tags", []):
+            cell.source = changes.get(tag, cell.source)
+    nbformat.write(notebook, file)
+    return file
+
+
+MY_UNDO = "def undo(angle, x, z):\n    return -angle, -x, -z\n"
+
+
+def test_a_copy_knows_what_has_changed_since(tmp_path, monkeypatch):
+    shipped, copy = tmp_path / "shipped", tmp_path / "copy"
+    shipped.mkdir()
+    for name in ("00-quickstart", "03-transforms"):
+        opening.copy_file(stored() / f"{name}.ipynb", shipped / f"{name}.ipynb")
+    monkeypatch.setattr(opening, "stored", lambda: shipped)
+    opening.course_folder(copy)
+    assert "changes" not in opening.news(copy)
+    file = edited_copy(copy, {"exercise:undo": MY_UNDO})
+    assert "changes" not in opening.news(copy)  # by the reader
+    edited_copy(shipped, {"title": "# Transforms, told anew"})
+    assert "copy: 03. `mocap lab --reset 03`" in opening.news(copy)
+    (copy / ".course.json").unlink()  # as an earlier version left it
+    assert "copy: 03. `mocap lab --reset 03`" in opening.news(copy)
+    said = opening.news(copy, "03")
+    assert "the old one is earlier" in said and "Your answers are in it: undo." in said
+    cells = nbformat.read(file, 4).cells
+    assert cells[0].source == "# Transforms, told anew" and MY_UNDO in [cell.source for cell in cells]
+    assert MY_UNDO in [cell.source for cell in nbformat.read(copy / "earlier" / file.name, 4).cells]
+    assert "changes" not in opening.news(copy)
+    refused("There is no notebook '3'; --reset takes one such as 03", opening.news, copy, "3")
+
+
+def test_progress_counts_what_is_kept_and_names_what_is_next(tmp_path):
+    file = tmp_path / "my_graph.py"
+    assert progress(file).splitlines()[-1] == "Next: `speed` in notebook 00."
+    file.write_text("# ---- speed (notebook 00) ----\n\ndef speed(): ...\n")
+    lines = progress(file).splitlines()
+    assert lines[0] == "00 ●○ cheapest"
+    assert lines[-1] == "Next: `cheapest` in notebook 00."
+    assert len(lines) == 10

@@ -8,12 +8,13 @@ Reading order (notebooks 00 to 19)
  4. `rewritten`: functions of `mocap.plain` that call the exercises
  5. `program`: the text of `mocap.plain` with these functions, which ends `my_graph.py`
  6. `own`: this program, run with the student's functions, from clips to a walk along a path
- 7. `questions`: the questions of a notebook, as its file has them, with numbers that the notebook computes
- 8. `asking`: quizzes with hints, and bets: what a reader thought, what came out, and how a page shows both
- 9. `choices`: which two windows are looked at, and what lies around them
-10. `showing`: the widget, its picture and its sentence, and all that its page needs
-11. `sensitivity`: d′ of a person, and of a class as one curve, with confidence intervals
-12. `blind_tests`: the test in a notebook or on a page, and its films: with a seam, and controls without one
+ 7. `seam_of_one`: the two walks of one person, and the seam between them, that a reader follows from 00 to 08
+ 8. `questions`: the questions of a notebook, as its file has them, with numbers that the notebook computes
+ 9. `asking`: quizzes with hints, and bets: what a reader thought, what came out, and how a page shows both
+10. `choices`: which two windows are looked at, and what lies around them
+11. `showing`: the widget, its picture and its sentence, and all that its page needs
+12. `sensitivity`: d′ of a person, and of a class as one curve, with confidence intervals
+13. `blind_tests`: the test in a notebook or on a page, and its films: with a seam, and controls without one
 
 References
 ----------

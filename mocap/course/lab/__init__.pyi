@@ -1,8 +1,13 @@
 from . import own as own
+from .adopting import compare as compare
 from .adopting import mine as mine
+from .adopting import progress as progress
 from .adopting import whose as whose
 from .asking import bet as bet
 from .asking import bets as bets
 from .asking import quiz as quiz
 from .blind_tests import blind_test as blind_test
+from .seam_of_one import Pair as Pair
+from .seam_of_one import choose_pair as choose_pair
+from .seam_of_one import pair as pair
 from .showing import inspector as inspector

@@ -12,10 +12,11 @@ from types import SimpleNamespace
 from typing import Any, cast
 
 from mocap.course.checks import all_checks, nearest, withheld
+from mocap.course.copies import progress as read_progress
 from mocap.course.guarded_calls import read_report, write_report_to
 from mocap.course.lab import program
 from mocap.course.lab.kept_functions import is_stub, keep, place, plain_source, read_text, run_sections
-from mocap.course.lab.slots import AsWritten, Slot, whose_run
+from mocap.course.lab.slots import FAILING, PACKAGE, YOURS, AsWritten, Slot, whose_run
 from mocap.errors import MocapError
 
 NAMES = (
@@ -126,6 +127,52 @@ def as_written() -> Tools:
     return Tools(**chosen)
 
 
+def compare(draw: Callable[[Tools], Any], *names: str) -> dict[str, Any]:
+    """Make a picture or a motion by the student's functions as they stand, beside that of the package's.
+
+    Parameters
+    ----------
+    draw : makes something of the functions, which are attributes of its argument. If it fails with functions
+        that do not pass their checks, which is printed, theirs is left out.
+    names : the exercises whose functions it calls.
+
+    Returns
+    -------
+    What `draw` made, by whose functions ran. If a function does not pass, the first is "yours, which does not
+    pass" and the last "the package's". Otherwise there is one alone.
+
+    Examples
+    --------
+    >>> compare(lambda by: by.hamilton([0, 1, 0, 0], [0, 0, 1, 0]).tolist(), "hamilton")
+    {"the package's": [0.0, 0.0, 0.0, 1.0]}
+
+    Notebooks: 00-quickstart to 07-walks-and-search
+    """
+    places = slots(*names)
+    begun = [slot for slot in places if slot.written is not slot.stand_in and not is_stub(slot.written)]
+    results: dict[str, Any] = {}
+    if any(slot.adopted is not slot.written for slot in begun):
+        theirs = {slot.name: AsWritten(slot) if slot in begun else slot for slot in places}
+        try:
+            results[FAILING] = draw(Tools(**theirs))
+        except Exception as error:  # whatever functions that do not pass lead to
+            problem = f"{type(error).__name__}: {error}"
+            print(f"As you wrote {', '.join(names)}, this fails. {problem}"[:200])
+        results[PACKAGE] = draw(Tools(**{slot.name: slot.stand_in for slot in places}))
+    else:
+        label = YOURS if all(slot.yours for slot in places) else PACKAGE
+        results[label] = draw(Tools(**{slot.name: slot for slot in places}))
+    return results
+
+
+def progress() -> None:
+    """Print how many exercises of each notebook of the way are solved, and which is next.
+
+    Notebook: 00-quickstart
+    """
+    print(read_progress(place()))
+
+
 def whose(*names: str) -> str:
     """State whose functions run in some places, as a line for a caption.
 
@@ -134,7 +181,7 @@ def whose(*names: str) -> str:
     >>> whose("hamilton", "climb")
     "hamilton, climb: the package's"
 
-    Notebook: 00-quickstart
+    Notebook: 05-motion-graph
     """
     return whose_run(slots(*names))
 

@@ -213,7 +213,7 @@ def _source(function: FunctionType) -> str:
 
 
 def is_stub(function: Callable[..., Any]) -> bool:
-    """Return whether a function still returns `...`, as the cell of an exercise does at first.
+    """Return whether a function still has a line `...` or `return ...`, as the cell of an exercise at first.
 
     Examples
     --------
@@ -224,8 +224,8 @@ def is_stub(function: Callable[..., Any]) -> bool:
         tree = ast.parse(textwrap.dedent(inspect.getsource(function)))
     except (OSError, TypeError, SyntaxError):
         return False
-    returned = [node.value for node in ast.walk(tree) if isinstance(node, ast.Return)]
-    return any(isinstance(value, ast.Constant) and value.value is ... for value in returned)
+    lines = [node.value for node in ast.walk(tree) if isinstance(node, ast.Return | ast.Expr)]
+    return any(isinstance(value, ast.Constant) and value.value is ... for value in lines)
 
 
 def keep(file: Path, name: str, notebook: str, source: str, program: str = "") -> str:

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap import plain
+from mocap._shared.arrays import Array
 from mocap.body.motion import Motion, require_compatible
 from mocap.course.checks import all_checks
 from mocap.course.lab import program
@@ -59,6 +60,23 @@ def pages_of(by: Tools | None, window: int, below: float = plain.BELOW, **change
     return pages
 
 
+def squared_distances(a: Array, b: Array, window: int, window_sums: Callable[[Array, int], Array]) -> Array:
+    """Measure D between all windows of two clips by sums along diagonals, as in notebook 02b.
+
+    Parameters
+    ----------
+    a, b : windows of the clips, shapes (N, n, 3) and (M, n, 3), metres.
+    window : frames in a window.
+    window_sums : sums along the diagonals of a matrix.
+
+    Returns
+    -------
+    Mean squared distances, shape (N, M), m².
+    """
+    pages = program.module({"window_sums": window_sums}, {"K": window})
+    return np.asarray(pages.distance_grid(a, b) ** 2)
+
+
 class OwnGraph:
     """A motion graph of clips, of which the component that plays most frames is kept, and walks on it.
 
@@ -85,6 +103,7 @@ class OwnGraph:
         self.clips = require_compatible(clips)
         self.pages = pages_of(by, window, threshold)
         self.by = by
+        self._walks: dict[bytes, OwnWalk] = {}  # by paths
         if not 2 <= window <= min(map(len, self.clips)):
             raise MocapError(f"A graph takes a window of two frames up to the shortest clip, got {window}.")
         self.transitions = self.pages.find_transitions(self.clips)
@@ -109,6 +128,7 @@ class OwnGraph:
             if name not in NAMES and not hasattr(plain, name):
                 raise MocapError(f"The program has no constant or exercise '{name}', such as BEAM_WIDTH.")
         variation = copy.copy(self)
+        variation._walks = {}
         variation.pages = pages_of(self.by, self.pages.K, self.pages.BELOW, **changes)
         return variation
 
@@ -163,59 +183,59 @@ class OwnGraph:
         onward = rotation * search.roots[clip][frame:] + translation
         return np.concatenate([start, search.tracks[edge], onward])
 
+    def walk(self, path: ArrayLike) -> tuple[Motion, list[int]]:
+        """Find a walk along a path, and play it.
+
+        Parameters
+        ----------
+        path : corners on the ground (x, z), shape (N, 2), metres.
+
+        Returns
+        -------
+        The motion, and the first frame of each transition.
+
+        Raises
+        ------
+        ValueError : if no walk reaches the end of the path.
+        """
+        key = np.asarray(path, float).tobytes()
+        if key not in self._walks:
+            self._walks[key] = self.follow(path)
+        followed = self._walks[key]
+        edges = [self.graph.edges[edge] for edge in followed[0]]
+        starts = np.cumsum([0, *(edge["frames"] for edge in edges)]).tolist()
+        seams = [start for start, edge in zip(starts, edges, strict=False) if edge["kind"] == "transition"]
+        return self.play(followed), seams
+
     def play(self, walk: OwnWalk) -> Motion:
         """Play a walk, shape (F, ...): copy stretches of clip, blend transitions [KGP02, Eqs. 5 and 6]."""
         roots, rotations = self.pages.to_motion(self.clips, self.graph, *walk)
         return Motion(self.clips[0].skeleton, roots, rotations, self.clips[0].fps, "my walk")
 
 
-def walk_along(
-    clips: Sequence[Motion], window: int, threshold: float, path: ArrayLike, by: Tools | None
-) -> tuple[Motion, int]:
-    """Build a graph of clips, and walk along a path.
+def my_graph(clips: Sequence[Motion], window: int, threshold: float, path: ArrayLike) -> OwnGraph:
+    """Build a graph with the student's functions as they stand, right or wrong, and print whose they are.
+
+    If functions that do not pass do not lead along a path, which is printed, those that pass stand in.
 
     Parameters
     ----------
-    clips, window, threshold, by : as for `OwnGraph`.
+    clips, window, threshold : as for `OwnGraph`.
     path : corners on the ground (x, z), shape (N, 2), metres.
-
-    Returns
-    -------
-    The motion, and its number of transitions.
-
-    Notebook: 08-path-synthesis
-    """
-    graph = OwnGraph(clips, window, threshold, by)
-    walk = graph.follow(path)
-    seams = sum(graph.graph.edges[edge]["kind"] == "transition" for edge in walk[0])
-    return graph.play(walk), seams
-
-
-def my_walk(clips: Sequence[Motion], window: int, threshold: float, path: ArrayLike) -> tuple[Motion, int]:
-    """Walk along a path by the student's functions as they stand, right or wrong, and print whose they are.
-
-    If functions that do not pass do not fit together, which is printed, those that pass walk without them.
-
-    Parameters
-    ----------
-    clips, window, threshold, path : as for `walk_along`.
-
-    Returns
-    -------
-    The motion, and its number of transitions.
 
     Notebook: 08-path-synthesis
     """
     by = as_written()
     try:
-        walk = walk_along(clips, window, threshold, path, by)
+        graph = OwnGraph(clips, window, threshold, by)
+        graph.walk(path)
     except Exception as error:  # whatever functions that do not pass lead to
         by = tools()
         problem = f"{type(error).__name__}: {error}"
         print(f"As you wrote them, your functions do not fit together. {problem}"[:200])
-        walk = walk_along(clips, window, threshold, path, by)
+        graph = OwnGraph(clips, window, threshold, by)
     print(whose_run(vars(by)[name] for name in NAMES[:-1]))  # the last one steers, in 08b
-    return walk
+    return graph
 
 
 def main(file: str) -> int:
@@ -270,8 +290,8 @@ def _place_of(error: Exception, file: Path) -> str:
     """Return a sentence that names the error, and the last line of the file that led to it."""
     frames = traceback.extract_tb(error.__traceback__)
     lines = [frame for frame in frames if Path(frame.filename).name == file.name and frame.name[0] != "<"]
-    where = f", line {lines[-1].lineno}, in `{lines[-1].name}`" if lines else ""
-    return f"{file.name}{where}: {type(error).__name__}: {error}"[:200]
+    in_file = f", line {lines[-1].lineno}, in `{lines[-1].name}`" if lines else ""
+    return f"{file.name}{in_file}: {type(error).__name__}: {error}"[:200]
 
 
 def _counted(function: Callable[..., Any], label: str) -> Callable[..., Any]:
