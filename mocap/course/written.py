@@ -12,8 +12,8 @@ from typing import Any
 
 from mocap._shared.records import NamedTuple
 
-ASKED = {"design": re.compile(r"\*\*Design task\.\*\*"), "prediction": re.compile(r"\*\*Predict\.\*\*")}
-"""How the texts begin after which a written answer is asked for, by the kind of the answer."""
+MARKS = {"design": "**Design task.**", "prediction": "**Predict.**", "discussion": "**Discuss.**"}
+"""What stands before a question that is answered in words, by the kind of the answer."""
 
 TEMPLATE = "**Your answer:**"
 KIND = "written"
@@ -46,10 +46,10 @@ def questions_of(notebook: Any) -> Iterator[tuple[str, Any]]:  # noqa: ANN401
     >>> [name for name, _ in questions_of(new_notebook(cells=list(map(new_markdown_cell, texts))))]
     ['prediction-1', 'design-1']
     """
-    counts = dict.fromkeys(ASKED, 0)
+    counts = dict.fromkeys(MARKS, 0)
     for cell in notebook.cells:
-        for kind, start in ASKED.items():
-            if cell.cell_type == "markdown" and start.search(cell.source):
+        for kind, words in MARKS.items():
+            if cell.cell_type == "markdown" and words in cell.source:
                 counts[kind] += 1
                 yield f"{kind}-{counts[kind]}", cell
 

@@ -11,7 +11,8 @@ from mocap._shared.arrays import Array
 from mocap.course.diagrams.pens import show_program
 from mocap.plotting import ASKED, CURVES, PATH, QUIET
 
-STRIDE, TURNS = 0.7, np.radians([-30, 0, 30])  # of the three edges at each node
+STRIDE = 0.7  # metres of a step
+TURNS = np.radians([-30, 0, 30])  # radians, of the three edges at each node
 PROGRAM = """waiting = {0: [start]}
 while waiting:
     layer = min(waiting)
@@ -27,11 +28,10 @@ while waiting:
             waiting[layer_of(longer)] += [longer]""".splitlines()
 """The loop that the pictures run; `plain.Search.layers` is the same one on clips."""
 
-LOOKS: dict[str, dict[str, Any]] = {
-    "crossed out": {"color": QUIET, "marker": "x", "alpha": 0.5, "linewidth": 1.4},
-    "waiting": {"color": CURVES[0], "marker": "o", "linewidth": 1.4},
-    "best": {"color": PATH, "marker": "o", "linewidth": 3.5},
-}
+LOOKS: dict[str, dict[str, Any]] = {}
+LOOKS["crossed out"] = {"color": QUIET, "marker": "x", "alpha": 0.5, "linewidth": 1.4}
+LOOKS["waiting"] = {"color": CURVES[0], "marker": "o", "linewidth": 1.4}
+LOOKS["best"] = {"color": PATH, "marker": "o", "linewidth": 3.5}
 
 
 class Steps(NamedTuple):
@@ -64,8 +64,8 @@ def lengthened(walk: Steps, turn: float, line: Array) -> Steps:
     """Let a walk make one more step."""
     heading = walk.heading + turn
     place = walk.places[-1] + STRIDE * np.exp(1j * heading)
-    off = abs(place - line[len(walk.places)]) ** 2
-    return Steps((*walk.places, place), heading, walk.cost + float(off))
+    squared_error = abs(place - line[len(walk.places)]) ** 2
+    return Steps((*walk.places, place), heading, walk.cost + float(squared_error))
 
 
 def layer_states(line: Array, count: int, width: int = 4, look: bool = True) -> Iterator[LayerState]:
@@ -94,10 +94,12 @@ def layer_states(line: Array, count: int, width: int = 4, look: bool = True) -> 
         ahead = "cost + look-ahead" if look else "cost alone"
         yield LayerState(4, f"layer {layer}: score = {ahead}", walks, [], score)
         ranked = sorted(walks, key=lambda walk: -score[walk])  # of those alike, the last stays: the best one
-        apart = {(np.round(walk.places[-1], 3), round(walk.heading, 3)): walk for walk in ranked}
-        crossed = [walk for walk in walks if walk not in apart.values()]
-        yield LayerState(5, f"layer {layer}: {len(crossed)} crossed out", [*apart.values()], crossed, score)
-        kept = sorted(apart.values(), key=lambda walk: score[walk])[:width]
+        distinct = {(np.round(walk.places[-1], 3), round(walk.heading, 3)): walk for walk in ranked}
+        crossed = [walk for walk in walks if walk not in distinct.values()]
+        yield LayerState(
+            5, f"layer {layer}: {len(crossed)} crossed out", [*distinct.values()], crossed, score
+        )
+        kept = sorted(distinct.values(), key=lambda walk: score[walk])[:width]
         crossed = [walk for walk in walks if walk not in kept]
         yield LayerState(6, f"layer {layer}: the best {len(kept)} go on", kept, crossed, score)
         walks = [lengthened(walk, turn, line) for walk in kept for turn in TURNS]
@@ -130,8 +132,8 @@ def layer_steps(line: Array, count: int) -> Callable[[int, int, bool], list[Arti
     figure.subplots_adjust(left=0.06, right=1, bottom=0.2, top=0.93, wspace=0.06)
     ground.plot(line[:-1].imag, line[:-1].real, color=ASKED, linewidth=3, alpha=0.7, label="asked for")
     pens = [ground.plot([], [], label=name, **look)[0] for name, look in LOOKS.items()]
-    apart = {"textcoords": "offset points", "ha": "center"}  # in two rows, so that neighbours are seen
-    scores = [ground.annotate("", (0, 0), (0, 7 + 15 * (number % 2)), **apart) for number in range(24)]
+    raised = {"textcoords": "offset points", "ha": "center"}  # in two rows, so that neighbours are seen
+    scores = [ground.annotate("", (0, 0), (0, 7 + 15 * (number % 2)), **raised) for number in range(24)]
     ground.set(aspect="equal", xlabel="x (m)", ylabel="z (m)", xlim=(2.1, -1.4), ylim=(-0.3, 3.1))
     ground.set(xticks=[2, 1, 0, -1], yticks=range(4))
     figure.legend(loc="lower left", ncols=4, frameon=False)

@@ -18,14 +18,14 @@ def arrow(ax: Axes, start: complex, end: complex, colour: str, wide: float = 1.8
     return ax.annotate("", (end.real, end.imag), (start.real, start.imag), arrowprops=look)
 
 
-def say(ax: Axes, at: complex, words: str, **look: Any) -> None:  # noqa: ANN401
+def say(ax: Axes, middle: complex, words: str, **look: Any) -> None:  # noqa: ANN401
     """Write words with their middle at a point across + i up."""
-    ax.text(at.real, at.imag, words, **({"ha": "center", "va": "center"} | look))
+    ax.text(middle.real, middle.imag, words, **({"ha": "center", "va": "center"} | look))
 
 
-def trace(ax: Axes, way: Any, **look: Any) -> None:  # noqa: ANN401
+def trace(ax: Axes, points: Any, **look: Any) -> None:  # noqa: ANN401
     """Draw a line through complex points, or a dot on one."""
-    ax.plot(way.real, way.imag, **look)
+    ax.plot(points.real, points.imag, **look)
 
 
 def strokes(ax: Axes, **look: Any) -> LineCollection:  # noqa: ANN401

@@ -15,7 +15,7 @@ from mocap.course.marking import walls
 
 NAME = "bubblewrap"
 PROGRAM = "bwrap"
-STARTING = 20  # seconds in which a program that does nothing must have ended
+STARTING = 60  # seconds in which a program that does nothing must have ended
 LINKED = ("bin", "sbin", "lib", "lib32", "lib64")  # folders that are links into /usr on most systems
 NAMESPACES = ("--unshare-all", "--die-with-parent", "--new-session")
 

@@ -237,11 +237,20 @@ def listable(hidden: Sequence[str]) -> list[Path]:
 
 
 def _needed() -> set[Path]:
-    """Return the places that a student's process needs: Python, this package, programs and libraries."""
+    """Return the places that a student's process needs: Python, this package, programs and libraries.
+
+    The current folder may be on Python's path, but is that of the teacher.
+    """
     package = Path(mocap.__file__).parent
-    path = [place for place in map(Path, sys.path) if place != package.parent or "-packages" in place.name]
+    of_others = (package.parent, Path.cwd())
+    path = [place for place in map(Path, filter(None, sys.path)) if _is_library(place, of_others)]
     needed: list[str | Path] = [sys.prefix, sys.base_prefix, *path, package, *SYSTEM]
     return {Path(place).resolve() for place in needed}
+
+
+def _is_library(place: Path, of_others: Sequence[Path]) -> bool:
+    """Return whether a folder of Python's path holds libraries only."""
+    return place.resolve() not in of_others or "-packages" in place.name
 
 
 def _without(place: Path, hidden: Sequence[Path]) -> Iterable[Path]:

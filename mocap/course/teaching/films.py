@@ -23,7 +23,7 @@ from mocap._shared.atomic import replacing
 from mocap._shared.progress import Progress
 from mocap.course.notebooks import read
 from mocap.course.site import STILL, recorded_of
-from mocap.course.teaching.board import SMOOTH, font_of
+from mocap.course.teaching.board import DISC, INK, PAPER, SMOOTH, font_of
 from mocap.course.teaching.slides import Slide, deck_file, deck_of
 from mocap.errors import MocapError
 from mocap.widgets.film import require_ffmpeg, write_mp4
@@ -31,9 +31,13 @@ from mocap.widgets.filmed_scene import FilmedScene, stored_scene
 
 SPEED = 15.0  # characters that are read per second
 LOOK = {"card": 3.0, "still": 5.0, "moving": 9.0, "player": 10.0}  # seconds of a scene at least
-SIZE, FPS = (1280, 720), 20.0
-TOP, EDGE, ROOM = 84, 56, (1168, 506)  # pixels: above the middle, beside it, and its size
-INK, SOFT, PAPER, DONE = "#222222", "#595959", "#FFFFFF", "#0072B2"
+SIZE = (1280, 720)  # pixels
+FPS = 20.0  # frames per second
+TOP = 84  # pixels above the middle of a scene
+EDGE = 56  # pixels left and right of it
+ROOM = (1168, 506)  # pixels, its size
+LABEL_ROOM = 34  # pixels below a picture with a label
+SOFT = "#595959"  # of labels
 SWEEP = 0.7  # seconds that a position of an experiment is shown
 COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 DIGITS = {"_": "₀₁₂₃₄₅₆₇₈₉", "^": "⁰¹²³⁴⁵⁶⁷⁸⁹"}
@@ -72,8 +76,8 @@ def render_film(notebook: Path, out: Path, *, moving: bool = True, progress: Pro
     contents = read(notebook)
     slides = deck_of(deck_file(notebook), contents)
     scenes = script_of(slides, recorded_of(notebook, contents) if moving else {})
-    with replacing(out) as beside:
-        write_mp4(frames_of(scenes, progress), beside, FPS)
+    with replacing(out) as unfinished:
+        write_mp4(frames_of(scenes, progress), unfinished, FPS)
     return out
 
 
@@ -107,11 +111,7 @@ def script_of(slides: Iterable[Slide], recorded: Mapping[str, Any]) -> list[Scen
     """
     scenes = []
     for slide in (slide for slide in slides if slide.label != "Exercise"):
-        written = [cell.source for cell in slide.cells if cell.cell_type == "markdown"]
-        texts = [text for text in written if not text.startswith("![")]
-        lines = [line for text in texts for line in text.splitlines() if re.search("[^-|: ]", line)]
-        rows = (re.sub(r"^\s*(?:[-*]|\d+\.) ", "", line).strip("|").split(" | ") for line in lines)
-        words = list(filter(None, ("\t".join(map(spoken, row)) for row in rows)))
+        words = _words_of(slide)
         heading = spoken(f"{slide.label}: {slide.heading}" if slide.label else slide.heading)
         shown = [parts for cell in slide.cells for parts in _shown(cell, recorded)]
         scenes += [Scene(kind, heading, " ".join(words), *parts) for kind, *parts in shown]
@@ -120,19 +120,31 @@ def script_of(slides: Iterable[Slide], recorded: Mapping[str, Any]) -> list[Scen
     return scenes
 
 
+def _words_of(slide: Slide) -> list[str]:
+    """List the lines of a slide's text as plain words; the cells of a table's row have tabs between them."""
+    written = [cell.source for cell in slide.cells if cell.cell_type == "markdown"]
+    texts = [text for text in written if not text.startswith("![")]
+    lines = [line for text in texts for line in text.splitlines() if re.search("[^-|: ]", line)]
+    rows = (re.sub(r"^\s*(?:[-*]|\d+\.) ", "", line).strip("|").split(" | ") for line in lines)
+    return list(filter(None, ("\t".join(map(spoken, row)) for row in rows)))
+
+
 def _shown(cell: Any, recorded: Mapping[str, Any]) -> Iterator[tuple[Any, ...]]:  # noqa: ANN401
     """Yield what a cell shows: the kind of a scene, its pictures, their labels, and figures."""
-    if found := re.match(r"!\[.*\]\(attachment:(.*)\)", cell.source, re.DOTALL):
-        yield "still", [base64.b64decode(cell.attachments[found[1]]["image/png"])]
+    attached = re.match(r"!\[.*\]\(attachment:(.*)\)", cell.source, re.DOTALL)
+    if attached:
+        yield "still", [base64.b64decode(cell.attachments[attached[1]]["image/png"])]
+    code = cell.metadata.get("code")
     for output in cell.get("outputs", ()):
-        data, code = output.get("data", {}), cell.metadata.get("code")
+        data = output.get("data", {})
         page = data.get("text/html", "")
-        if figures := stored_scene(page):
+        figures = stored_scene(page)
+        if figures:
             yield "player", [], [], figures
         elif STILL in page and code in recorded:
-            one = recorded[code]
-            pictures = [base64.b64decode(picture) for picture in one["pictures"]]
-            yield "moving", pictures, [f"{one['name']}: {at}" for at in one["labels"]]
+            recording = recorded[code]
+            pictures = [base64.b64decode(picture) for picture in recording["pictures"]]
+            yield "moving", pictures, [f"{recording['name']}: {label}" for label in recording["labels"]]
         elif "image/png" in data:
             yield "still", [base64.b64decode(data["image/png"])]
 
@@ -147,33 +159,37 @@ def spoken(text: str) -> str:
     >>> spoken(r"It is $\\frac{1}{2}$.")
     ''
     """
-    text = re.sub(r"[_^]\d", lambda found: DIGITS[found[0][0]][int(found[0][1])], COMMENT.sub("", text))
+    text = re.sub(r"([_^])(\d)", lambda match: DIGITS[match[1]][int(match[2])], COMMENT.sub("", text))
     for word in sorted(GREEK, key=len, reverse=True):
         text = text.replace(word, GREEK[word])
     if re.search(r"\$[^$]*[\\^_{][^$]*\$|<", text):
         return ""
-    text = re.sub(r" ?\[\d+(?:, [^\]]*)?\]", "", re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", text))
+    without_links = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", text)
+    text = re.sub(r" ?\[\d+(?:, [^\]]*)?\]", "", without_links)
     return " ".join(re.sub(r"[*`$]|(?<!\w)_|_(?!\w)", "", text).split())
 
 
 def frames_of(scenes: list[Scene], progress: Progress = iter) -> Iterator[NDArray[np.uint8]]:
     """Draw a film, frame by frame, each of shape (720, 1280, 3); a bar shows how much of it is over."""
-    total, done = sum(scene.seconds for scene in scenes), 0.0
+    total = sum(scene.seconds for scene in scenes)
+    begun = 0.0  # seconds of the scenes before
     for scene in progress(scenes):
-        page, middle = _page(scene), _middle(scene)
+        page = _page(scene)
+        middle = _middle(scene)
         for number in range(round(scene.seconds * FPS)):
             time = number / FPS
             if number == 0 or scene.kind in ("player", "moving"):
                 page.paste(middle(time), (EDGE, TOP))
-            bar = round((done + time) / total * SIZE[0])
-            ImageDraw.Draw(page).rectangle([0, SIZE[1] - 6, bar, SIZE[1]], DONE)
+            bar = round((begun + time) / total * SIZE[0])
+            ImageDraw.Draw(page).rectangle([0, SIZE[1] - 6, bar, SIZE[1]], DISC)
             yield np.asarray(page)
-        done += scene.seconds
+        begun += scene.seconds
 
 
 def _page(scene: Scene) -> Image.Image:
     """Draw what stays in a scene: its heading, and its words unless they are all that it shows."""
-    page, heading = Image.new("RGB", SIZE, PAPER), scene.heading
+    page = Image.new("RGB", SIZE, PAPER)
+    heading = scene.heading
     pen = ImageDraw.Draw(page)
     while font_of(36, bold=True).getlength(heading) > ROOM[0]:
         heading = heading[:-2].rstrip() + "…"
@@ -186,11 +202,12 @@ def _page(scene: Scene) -> Image.Image:
 
 def _middle(scene: Scene) -> Callable[[float], Image.Image]:
     """Give the function that draws the middle of a scene at a time."""
-    if (figures := scene.figures) is not None:
+    figures = scene.figures
+    if figures is not None:
         return lambda time: Image.fromarray(figures.picture(time, ROOM))
     pictures = [_card(scene.words)] if scene.kind == "card" else []
     for data, label in zip(scene.pictures, scene.labels or repeat(""), strict=False):
-        high = ROOM[1] - 34 * bool(label)
+        high = ROOM[1] - LABEL_ROOM if label else ROOM[1]
         picture = ImageOps.pad(Image.open(io.BytesIO(data)).convert("RGBA"), (ROOM[0], high), SMOOTH)
         page = Image.new("RGB", ROOM, PAPER)
         page.paste(picture, (0, 0), picture)
@@ -204,14 +221,12 @@ def _card(words: str) -> Image.Image:
     """Write words large; a line of them is a point of a list, or a row of a table with tabs in it."""
     page = Image.new("RGB", (ROOM[0], ROOM[1] + 60), PAPER)
     rows = [row.split("\t") for row in words.split("\n")]
-    mark, columns = "• " * (len(rows) > 1), [*zip_longest(*(row for row in rows if row[1:]), fillvalue="")]
+    mark = "• " if len(rows) > 1 else ""
+    columns = list(zip_longest(*(row for row in rows if row[1:]), fillvalue=""))
     for size in (34, 30, 26, 22):
         font = font_of(size)
         places = [0, *np.cumsum([max(map(font.getlength, column)) + size for column in columns])]
-        lines = list[list[str]]()
-        for row in rows:  # one of a table stays one line, and an empty line follows a point of a list
-            points = [*wrapped(mark + row[0], font, ROOM[0]), ""]
-            lines += [row] if row[1:] else [[line] for line in points]
+        lines = [line for row in rows for line in _lines_of(row, mark, font)]
         if len(lines) * size * 1.35 < page.height and places[-1] <= page.width + size:
             break
     for number, cells in enumerate(lines):
@@ -220,10 +235,20 @@ def _card(words: str) -> Image.Image:
     return page
 
 
+def _lines_of(row: list[str], mark: str, font: ImageFont.FreeTypeFont) -> list[list[str]]:
+    """Break a row into lines; one of a table stays one line, and an empty line follows a point of a list."""
+    if row[1:]:
+        return [row]
+    return [[line] for line in [*wrapped(mark + row[0], font, ROOM[0]), ""]]
+
+
 def wrapped(words: str, font: ImageFont.FreeTypeFont, width: float) -> list[str]:
     """Break words into lines that are no wider than a width, pixels."""
     lines = [""]
     for word in words.split():
         longer = f"{lines[-1]} {word}".strip()
-        lines[-1:] = [longer] if font.getlength(longer) <= width or not lines[-1] else [lines[-1], word]
+        if font.getlength(longer) <= width or not lines[-1]:
+            lines[-1] = longer
+        else:
+            lines.append(word)
     return lines

@@ -16,7 +16,7 @@ import base64
 import html
 import re
 import shutil
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.util import find_spec
@@ -71,46 +71,69 @@ def deck_of(file: Path, notebook: Any) -> list[Slide]:  # noqa: ANN401
     """
     if not file.is_file():
         raise MocapError(f"There is no deck {file}: slides and films are made of decks.")
-    slides, written = [], library().v4.new_markdown_cell
+    slides = []
     for part in re.split(r"^---$", file.read_text("utf-8"), flags=re.MULTILINE):
-        told, _, notes = part.partition("\nNote:")
-        heading, _, body = told.strip().partition("\n")
-        label, _, rest = (heading := heading.lstrip("# ")).partition(": ")
-        label, heading = (label, rest) if label in LABELS else ("", heading)
-        texts = TAKEN.split(body)
-        if wrong := re.search(r"^\{.*", "".join(texts[::3]), re.MULTILINE):
-            raise MocapError(f"{file}: '{wrong[0]:.60}' is not {{show ...}}, {{code ...}} or {{draw ...}}.")
-        cells = [written(texts[0].strip())]
-        for what, name, text in zip(texts[1::3], texts[2::3], texts[3::3], strict=True):
-            cells += [_taken(file, notebook, what, name), written(text.strip())]
-        cells = [cell for cell in cells if cell.source or cell.get("outputs")]
-        slides.append(Slide(label, heading, cells, notes.strip()))
+        text, _, notes = part.partition("\nNote:")
+        heading, _, body = text.strip().partition("\n")
+        heading = heading.lstrip("# ")
+        label, _, rest = heading.partition(": ")
+        is_labelled = label in LABELS
+        cells = [cell for cell in _cells_of(file, notebook, body) if cell.source or cell.get("outputs")]
+        title = rest if is_labelled else heading
+        slides.append(Slide(label if is_labelled else "", title, cells, notes.strip()))
     return slides
 
 
-def _taken(file: Path, notebook: Any, what: str, name: str) -> Any:  # noqa: ANN401
+def _cells_of(file: Path, notebook: Any, body: str) -> list[Any]:  # noqa: ANN401
+    """List the cells of a slide: its texts, and between them what its lines take from the notebook."""
+    new_text = library().v4.new_markdown_cell
+    first, *parts = TAKEN.split(body)
+    triples = list(_three_by_three(parts))
+    texts = [first, *(text for _, _, text in triples)]
+    wrong = re.search(r"^\{.*", "".join(texts), re.MULTILINE)
+    if wrong:
+        raise MocapError(f"{file}: '{wrong[0]:.60}' is not {{show ...}}, {{code ...}} or {{draw ...}}.")
+    cells = [new_text(first.strip())]
+    for verb, name, text in triples:
+        cells += [_cell_for(file, notebook, verb, name), new_text(text.strip())]
+    return cells
+
+
+def _three_by_three(parts: Sequence[str]) -> Iterator[tuple[str, str, str]]:
+    """Yield the parts of a text three by three."""
+    remaining = iter(parts)
+    return zip(remaining, remaining, remaining, strict=True)
+
+
+def _cell_for(file: Path, notebook: Any, verb: str, name: str) -> Any:  # noqa: ANN401
     """Copy a cell of the notebook, with its code or with what it shows; or draw a step for the board."""
-    if what == "draw":
-        new, (name, _, step) = library().v4, name.partition(" ")
-        picture = {"image/png": base64.b64encode(pictures_of(name)[int(step) - 1]).decode()}
+    if verb == "draw":
+        new = library().v4
+        drawing, _, step = name.partition(" ")
+        picture = {"image/png": base64.b64encode(pictures_of(drawing)[int(step) - 1]).decode()}
         return new.new_code_cell(outputs=[new.new_output("display_data", picture)])
-    found = [cell for cell in notebook.cells if name in cell.metadata.get("tags", ())]
-    found = found or [cell for cell in notebook.cells if name in cell.source]
-    if len(found) != 1:
-        raise MocapError(f"{file}: '{name:.60}' is in {len(found)} cells of the notebook, not in one.")
-    (cell,) = found
+    matching = [cell for cell in notebook.cells if name in cell.metadata.get("tags", ())]
+    matching = matching or [cell for cell in notebook.cells if name in cell.source]
+    if len(matching) != 1:
+        raise MocapError(f"{file}: '{name:.60}' is in {len(matching)} cells of the notebook, not in one.")
+    (cell,) = matching
     if cell.cell_type == "markdown":
         return type(cell)(cell, source="\n".join(PICTURE.findall(cell.source)))
-    if what == "code":
+    if verb == "code":
         return type(cell)(cell, outputs=[])
     seen = [output for output in cell.outputs if "data" in output] or cell.outputs
     return type(cell)(cell, source="", outputs=seen, metadata={**cell.metadata, "code": cell.source})
 
 
-PAGE, LIST = (Path(__file__).with_name(name) for name in ("slides.html", "decks.html"))
+PAGE = Path(__file__).with_name("slides.html")
+LIST = Path(__file__).with_name("decks.html")
 NEEDED = ("LICENSE", "dist/reveal.css", "dist/reveal.js", "plugin/notes/notes.js")  # of reveal.js
-LINK = re.compile(r'<a href="(?!https?:)([^"#]*)(#[^"]*)?"([^>]*)>(.*?)</a>', re.DOTALL)
-MATH = re.compile(r"(<(pre|code)\b.*?</\2>)|\$\$(.+?)\$\$|\$([^$\n]+?)\$", re.DOTALL)  # but in code
+LINK = re.compile(
+    r'<a href="(?P<page>(?!https?:)[^"#]*)(?:#[^"]*)?"(?P<rest>[^>]*)>(?P<words>.*?)</a>', re.DOTALL
+)
+MATH = re.compile(
+    r"(?P<code><(?P<tag>pre|code)\b.*?</(?P=tag)>)|\$\$(?P<block>.+?)\$\$|\$(?P<inline>[^$\n]+?)\$", re.DOTALL
+)  # but in code
 ANCHOR = re.compile(r'<a class="anchor-link".*?</a>', re.DOTALL)
 
 
@@ -138,9 +161,10 @@ def build_slides(notebooks: Path, out: Path, progress: Progress = iter, *, movin
     Traceback (most recent call last):
     mocap.errors.MocapError: The folder nowhere holds no notebooks.
     """
-    files, rows = [file for file in notebooks_in(notebooks) if deck_file(file).is_file()], []
-    found = find_spec("sphinx_revealjs")
-    folder = Path(found.origin).parent / "_static" / "revealjs" if found and found.origin else Path()
+    files = [file for file in notebooks_in(notebooks) if deck_file(file).is_file()]
+    rows = []
+    package = find_spec("sphinx_revealjs")
+    folder = Path(package.origin).parent / "_static" / "revealjs" if package and package.origin else Path()
     if not all((folder / name).is_file() for name in NEEDED):
         raise missing("Slides need reveal.js, which sphinx-revealjs ships", "slides")
     for name in NEEDED:  # out of the installed package that ships it
@@ -180,16 +204,14 @@ def page_of(title: str, slides: Iterable[Slide], names: Collection[str]) -> str:
             inner += f'<aside class="notes">{to_html([new_markdown_cell(slide.notes)])}</aside>'
         sections.append(f'<section class="{kind}">{inner}</section>')
 
-    def linked(found: re.Match[str]) -> str:  # to a page that is no slide only the words are left
-        known = found[1].removesuffix(".html") in names
-        return f'<a href="{found[1]}"{found[3]}>{found[4]}</a>' if known else found[4]
+    def linked(match: re.Match[str]) -> str:  # to a page that is no slide only the words are left
+        page = match["page"]
+        is_deck = page.removesuffix(".html") in names
+        return f'<a href="{page}"{match["rest"]}>{match["words"]}</a>' if is_deck else match["words"]
 
-    parts = {
-        "title": html.escape(title),
-        "slides": LINK.sub(linked, "\n".join(sections)),
-        "code": HtmlFormatter(style="friendly").get_style_defs(".highlight"),
-        "moving": MOVING.read_text("utf-8"),
-    }
+    style = HtmlFormatter(style="friendly").get_style_defs(".highlight")
+    pages = LINK.sub(linked, "\n".join(sections))
+    parts = {"title": html.escape(title), "slides": pages, "code": style, "moving": MOVING.read_text("utf-8")}
     return Template(PAGE.read_text("utf-8")).substitute(parts)
 
 
@@ -197,16 +219,17 @@ def to_html(cells: Iterable[Any]) -> str:
     """Convert cells; formulas become MathML."""
     from nbformat.v4 import new_notebook
 
-    def formula(found: re.Match[str]) -> str:
-        return found[1] or to_mathml(html.unescape(found[3] or found[4]), block=bool(found[3]))
+    def formula(match: re.Match[str]) -> str:
+        block = match["block"]
+        return match["code"] or to_mathml(html.unescape(block or match["inline"]), block=bool(block))
 
-    made = ""
+    page = ""
     for cell in cells:
         body, _ = _exporter().from_notebook_node(new_notebook(cells=[cell]))
         if cell.cell_type == "markdown":
             body = MATH.sub(formula, ANCHOR.sub("", body))
-        made += re.sub(r' id="cell-id=[^"]*"', "", body)
-    return re.sub(r'(href="(?!https?:)[^"]*)\.(?:ipynb|md)\b', r"\1.html", made)
+        page += re.sub(r' id="cell-id=[^"]*"', "", body)
+    return re.sub(r'(href="(?!https?:)[^"]*)\.(?:ipynb|md)\b', r"\1.html", page)
 
 
 @cache

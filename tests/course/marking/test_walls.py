@@ -223,6 +223,13 @@ def test_at_home_all_works(wall, version, place):
     assert succeeds([wall], place / "home", place / "hidden", work)
 
 
+def test_the_teachers_folder_is_not_readable_although_python_finds_modules_there(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for path in ("", str(tmp_path)):
+        monkeypatch.setattr(sys, "path", [path, *sys.path])
+        assert tmp_path.resolve() not in walls.readable([])
+
+
 @pytest.mark.parametrize(
     ("module", "name", "given", "wanted"),
     [(sys, "platform", "darwin", walls.ALL), (platform, "machine", lambda: "abacus", ["filter"])],
