@@ -43,6 +43,7 @@ LOADERS = {
     AMASS: "mocap.load",
     MOTION: "mocap.load",
     "a motion graph": "graphs.load",
+    "a packed motion graph": "graphs.load",
     "a match web": "match_webs.load_web",
     "a parametric motion graph": "parametric_graphs.load_parametric",
     "a group motion graph": "groups.load_group",

@@ -11,18 +11,19 @@ Reading order
 7. `options`: groups of options by which commands read clips, paths and graphs
 8. `clusters`: the workers of a Dask cluster
 9. `graph`: `mocap demo` and `mocap graph`, which build, save and describe motion graphs
-10. `walk`: `mocap walk`, `page` and `crowd`, which walk through a graph
-11. `clip_reports`: the numbers of clips, for `mocap info --json`
-12. `clips`: `mocap info`, `view`, `judge`, `convert` and `find`
-13. `labels`: `mocap label`, which proposes labels for clips
-14. `data`: `mocap data`, which lists and downloads clips of other labs
-15. `edits`: `mocap warp`, `bend`, `loop`, `blend` and `retarget`
-16. `cutting`: `mocap cut`, which cuts, resamples, mirrors and repeats clips
-17. `in_betweens`: `mocap inbetween`, which fills the time between two clips
-18. `course`: `mocap course`, which hands out, marks, publishes and runs the notebooks, and `mocap lab`
-19. `help_pages`: help in plain text
-20. `refusals`: errors for invalid commands, options and values, with suggestions
-21. `streams`: output streams that are closed, full, or abandoned by their reader
-22. `main`: all commands under one name, with `mocap completion` and the exit status
-23. `tuned`: the constants that trials chose
+10. `directing`: options of `mocap walk` that direct a walk, and the table of a walk
+11. `walk`: `mocap walk`, `page` and `crowd`, which walk through a graph
+12. `clip_reports`: the numbers of clips, for `mocap info --json`
+13. `clips`: `mocap info`, `view`, `judge`, `convert` and `find`
+14. `labels`: `mocap label`, which proposes labels for clips
+15. `data`: `mocap data`, which lists and downloads clips of other labs
+16. `edits`: `mocap warp`, `bend`, `loop`, `blend` and `retarget`
+17. `cutting`: `mocap cut`, which cuts, resamples, mirrors and repeats clips
+18. `in_betweens`: `mocap inbetween`, which fills the time between two clips
+19. `course`: `mocap course`, which hands out, marks, publishes and runs the notebooks, and `mocap lab`
+20. `help_pages`: help in plain text
+21. `refusals`: errors for invalid commands, options and values, with suggestions
+22. `streams`: output streams that are closed, full, or abandoned by their reader
+23. `main`: all commands under one name, with `mocap completion` and the exit status
+24. `tuned`: the constants that trials chose
 """

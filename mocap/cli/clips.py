@@ -8,13 +8,13 @@ from collections.abc import Sequence
 from functools import partial
 from json import dumps
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from mocap import files, quality, widgets
 from mocap._shared.atomic import make_folder, require_folder
 from mocap.cli.clip_reports import describe_clips
 from mocap.cli.clip_sets import Spaces, read_found
-from mocap.cli.option_types import CM, PlainNames
+from mocap.cli.option_types import CM, PlainNames, number
 from mocap.cli.options import READING, FileReading, PathReading, Reading, Sources, require_file
 from mocap.cli.outputs import open_page, print_rows, report_failures, require_output
 from mocap.cli.stages import bar, timed_stage
@@ -28,6 +28,10 @@ if TYPE_CHECKING:
     from mocap.body.motion import Motion
     from mocap.files.recordings import Recording
     from mocap.quality.clip_flaws import Flaw
+
+
+FILM_RATE = 25.0  # frames per second
+BESIDE = 1.2  # metres between clips that are shown beside each other
 
 
 def info(file: Path, *, joints: bool = False, json: bool = False, reading: FileReading) -> int:
@@ -94,28 +98,87 @@ def _with_remedy(flaw: "Flaw", frames: int) -> "Flaw":
     return flaw._replace(detail=f"cut it by mocap cut {' '.join(options)}") if options else flaw
 
 
-def view(clip: Path, *, out: Path | None = None, reading: Reading) -> None:
-    """Play a clip in the browser.
+def view(
+    clips: Sequence[Path],
+    *,
+    out: Path | None = None,
+    layout: Literal["beside", "upon", "as-is"] | None = None,
+    camera: Annotated[float | None, number(-360, 360)] = None,
+    size: str | None = None,
+    rate: Annotated[float | None, number(1, 100)] = None,
+    reading: Reading,
+) -> None:
+    """Play a clip in the browser, or several clips together, with their names.
 
     The page is one file that works without a network.
 
     Parameters
     ----------
-    clip : a motion file.
+    clips : motion files.
     out : file to write, .html, .gif, .mp4 or .png, without opening a browser.
+    layout : how several clips are shown: beside each other or one upon the other, all walking off in the same
+        direction, or as-is, where they are (default: beside).
+    camera (DEGREES) : direction from which the camera looks, degrees to the right of the z axis (default:
+        40).
+    size (WxH) : width and height of a film in pixels, as in 1280x720 (default: 640x360 for .gif, 848x480 for
+        .mp4).
+    rate : frames per second of a film (default: 25).
 
     Notes
     -----
     Example: mocap view walk.bvh
+
+    Example: mocap view walk.bvh cleaned.bvh --layout upon -o both.mp4 --size 1280x720
     """
-    if out:
-        require_output(out)
-    motion = reading.load(clip)
-    page = out or Path(tempfile.mkdtemp(prefix="mocap-"), f"{clip.stem}.html")
-    widgets.save_animation(motion, page, progress=bar("drawing"))
+    _check_view(clips, out, films_only=bool(size or rate), arranges=layout is not None)
+    look: dict[str, Any] = {"captions": len(clips) > 1, "fps": rate or FILM_RATE}
+    look |= {"size": _size(size), "yaw": None if camera is None else math.radians(camera)}
+    motions = [reading.load(clips[0])] if len(clips) == 1 else reading.load_set(clips, clips)
+    shown = arranged(motions, layout or "beside") if len(clips) > 1 else motions
+    page = out or Path(tempfile.mkdtemp(prefix="mocap-"), f"{clips[0].stem}.html")
+    widgets.save_animation(shown, page, **look, progress=bar("drawing"))
     print_rows(wrote=page)
     if not out:
         open_page(page)
+
+
+def _check_view(clips: Sequence[Path], out: Path | None, *, films_only: bool, arranges: bool) -> None:
+    """Raise for no clip, options without what they belong to, and a file that cannot be written."""
+    if not clips:
+        raise MocapError("mocap view needs CLIPS: the motion files to play.")
+    if out:
+        require_output(out)
+    if films_only and (out is None or out.suffix.lower() not in (".gif", ".mp4")):
+        raise MocapError("--size and --rate are of films: give -o with a name in .gif or .mp4.")
+    if arranges and len(clips) == 1:
+        raise MocapError("--layout arranges several clips: give two or more.")
+
+
+def arranged(motions: "Sequence[Motion]", layout: str) -> "list[Motion]":
+    """Place motions beside each other, one upon the other, or where they are."""
+    from mocap import body  # the help needs no NumPy
+
+    if layout == "as-is":
+        return [*motions]
+    spacing = BESIDE if layout == "beside" else 0.0
+    first = spacing * (len(motions) - 1) / 2
+    return [body.place(motion, 0.0, [first - spacing * n, 0.0]) for n, motion in enumerate(motions)]
+
+
+def _size(text: str | None) -> tuple[int, int] | None:
+    """Parse the size of a film.
+
+    Examples
+    --------
+    >>> _size("1280x720")
+    (1280, 720)
+    """
+    if text is None:
+        return None
+    parts = re.fullmatch(r"(\d{2,4})x(\d{2,4})", text)
+    if parts is None:
+        raise MocapError(f"Which size is '{text[:40]}'? Write WIDTHxHEIGHT in pixels, as in 1280x720.")
+    return int(parts[1]), int(parts[2])
 
 
 def judge(

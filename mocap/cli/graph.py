@@ -118,6 +118,7 @@ def build(
     mirror: bool = False,
     labels: Path | None = None,
     licence: str | None = None,
+    pack: bool = False,
     graphml: Path | None = None,
     jobs: Annotated[int | None, number(1, 1024, int)] = None,
     cluster: str | None = None,
@@ -135,6 +136,7 @@ def build(
         replace those of the clips that it names.
     licence (TEXT) : licence of the clips, or a .csv table with the columns clip and licence (default: that of
         a known data set). mocap walk lists the licences of a walk.
+    pack : let the file carry its clips, so that it can be given away, with rotations as 16-bit numbers.
     graphml : second file to write, .graphml, for other tools.
     jobs : number of threads that compare clips (default: all cores that this process may use).
     cluster (ADDRESS) : compare clips on the workers of a Dask scheduler, as in tcp://10.0.0.5:8786. The graph
@@ -167,7 +169,12 @@ def build(
     if not (whole or by_labels):
         _propose_threshold(graph, building)
     with timed_stage("writing"):
-        graphs.save(graph, out, origins)
+        graphs.save(graph, out, origins, pack=pack)
+    if pack:
+        from mocap.datasets.packed_clips import as_packed, packing_error  # the help needs no NumPy
+
+        error = packing_error(graph.clips, as_packed(graph.clips))
+        print_rows(packed=f"{len(graph.clips)} clips, whose joints move by at most {1e3 * error:.2g} mm")
     print_rows(wrote=out)
     if graphml:
         from mocap.graphs.graph_summary import write_graphml  # the help needs no NumPy
@@ -280,8 +287,8 @@ def info(file: Path) -> None:
 
 TEXT = """Build a motion graph and save it, or describe a saved one.
 
-The graph is pruned before it is saved. The file stores the locations of the clips, not the clips. The word
-`build` may be omitted. For a folder of clips with the name info, write ./info.
+The graph is pruned before it is saved. The file stores the locations of the clips, and with --pack the clips.
+The word `build` may be omitted. For a folder of clips with the name info, write ./info.
 
 Notes
 -----

@@ -4,15 +4,17 @@ import cmath
 import math
 import re
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from mocap import body, datasets, editing, files, graphs, plotting, steering, widgets
 from mocap._shared.atomic import make_folder, replacing, require_folder, write_file
 from mocap._shared.deadlines import OUT_OF_TIME
 from mocap.cli import options
+from mocap.cli.directing import Directing, describe, node_of, write_contents
 from mocap.cli.option_types import TURN, Clean, Joints, Seed, Skeleton, number
 from mocap.cli.options import Building, PathReading, Sources
 from mocap.cli.outputs import check_out, open_page, print_rows, require_address, require_other, write_out
@@ -23,9 +25,16 @@ from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.files.conversion import find_files
 from mocap.methods import groups
 
+if TYPE_CHECKING:
+    from mocap.body.ground_path import GroundPath
+    from mocap.files.directions import Direction
+    from mocap.steering.followed import Followed
+
 BUILD_FIRST = "build a graph of it first, by mocap graph {}"
 UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
+MEASURED = 3600.0  # seconds of a random walk, up to which its seams are measured
+INTERRUPTED = 130  # exit status
 LONGEST = 24 * 3600.0  # longest random walk, seconds
 
 
@@ -38,6 +47,7 @@ def walk(
     clips: Sequence[Path] = (),
     sources: Sources,
     drawn: PathReading,
+    directing: Directing,
     label: Annotated[Sequence[str], ONE_EACH] = (),
     bend: Annotated[float | None, TURN, OptionalValue(100.0)] = None,
     width: Annotated[int | None, number(1, 10_000, int)] = None,
@@ -48,13 +58,15 @@ def walk(
     """Walk through a saved graph, along a path or at random.
 
     The motion is written as .bvh (centimetres), .glb (for engines and viewers), .npz (with labels and
-    footplants) or .csv (positions of joints). Ctrl-C during the search for a walk along a path writes the
-    best walk so far.
+    footplants) or .csv (positions of joints). A table beside it, as in walk.edges.csv, lists the stretches of
+    clips and the seams of the walk. A path may also direct the walk: a .csv table with the columns x, z, and
+    any of t (seconds), heading (degrees), label and wait (seconds), or a .toml file. Ctrl-C during the search
+    for a walk along a path writes the best walk so far.
 
     Parameters
     ----------
     graph : an .npz file from `mocap graph`.
-    path : the path, .csv with points x, z in metres, or .svg.
+    path : the path, .csv with points x, z in metres, or .svg, or a direction, .csv or .toml.
     random (TIME) : duration of a random walk, such as 60s, 10min or 1h.
     out : file to write, .bvh, .glb, .npz or .csv.
     clips : the clips of the graph (default: those from which it was built, at their stored locations).
@@ -72,33 +84,131 @@ def walk(
     Example: mocap walk graph.npz --path line.csv --bend -o walk.bvh
     """
     _require_one(path, random, seed)
-    if random is not None and any((label, width, drawn.is_given(), bend, deadline)):
-        options_of_paths = "--label, --bend, --width, --unit, --length, --id and --deadline"
-        raise MocapError(f"{options_of_paths} belong to --path, not to --random.")
+    of_paths = {"label": label, "width": width, "bend": bend, "deadline": deadline}
+    if random is not None:
+        _require_no_path_options(directing, drawn, of_paths)
     check_out("walk", out, [graph, *([path] if path else [])])
+    directing.check_outputs(out)
     with timed_stage("loading packages"):
-        from mocap.synthesis.random_walks import dump  # the help needs no NumPy
+        from mocap.graphs.storage import licences_in  # the help needs no NumPy
 
     seconds = _seconds(random or "1s")
     longest_search = math.inf if deadline is None else _seconds(deadline)
     options.require_file(graph, BUILD_FIRST.format(graph))
-    line = drawn.load(path) if path else None
+    direction = directing.direction(path) if path else None
+    _require_bare_direction(direction, directing, drawn, of_paths)
+    line = drawn.load(path) if path and direction is None else None
     request = steering.PathRequest(labels=[_label(text) for text in label])
     with timed_stage("reading the graph"):
         motions = _graph(graph, clips, sources, out)
+    writing = _Writing(out, licences_in(graph), clean)
+    search = steering.Settings(width=width, progress=bar("searching"), deadline=longest_search)
+    if direction is not None:
+        return writing.direct(motions, direction, search)
     if line is None:
-        frames = dump(motions, out, seconds=seconds, seed=seed or 0, clean=clean, progress=bar("writing"))
-        print_rows(walked=f"{frames / motions.fps:.1f} s at random", wrote=out)
-        return 0
-    settings = steering.Settings(width=width or 100, progress=bar("searching"), deadline=longest_search)
+        return writing.walk_at_random(motions, seconds, seed or 0)
     with timed_stage("following the path"), options.named_options({"bend": "--bend"}):
         turn = math.radians(bend or 0)
-        followed = steering.follow_path(motions, line, request, settings=settings, bend=turn)
-    print_rows(walked=followed.report())
-    with timed_stage("making the motion"):
-        motion = followed.motion(clean=clean or bool(bend))
-    write_out(motion, out)
-    return 0 if followed.found.stopped in ("", OUT_OF_TIME) else 130
+        settings = replace(search, width=width or 100)
+        followed = _follow(motions, line, request, settings, turn, directing.without)
+    return writing.follow(followed, directing.inspect)
+
+
+def _require_bare_direction(
+    direction: "Direction | None", directing: Directing, drawn: PathReading, values: Mapping[str, object]
+) -> None:
+    """Raise for options that a direction does not take."""
+    given_too = [values["label"], values["bend"], drawn.is_given(), directing.without, directing.inspect]
+    if direction is not None and any(given_too):
+        refused = "--bend, --label, --unit, --length, --id, --without and --inspect"
+        raise MocapError(f"A direction takes none of {refused}: labels are a column of its table.")
+
+
+def _require_no_path_options(directing: Directing, drawn: PathReading, values: Mapping[str, object]) -> None:
+    """Raise if options of paths are given with --random."""
+    if any(values.values()) or drawn.is_given() or directing.names():
+        directions = "".join(f"{name}, " for name in directing.names()[:2])
+        options_of_paths = f"{directions}--label, --bend, --width, --unit, --length, --id and --deadline"
+        raise MocapError(f"{options_of_paths} belong to --path, not to --random.")
+
+
+@dataclass(frozen=True)
+class _Writing:
+    """Writes a walk, and the table of its edges beside it.
+
+    Parameters
+    ----------
+    out : the file of the motion.
+    licences : the licences of the clips, by name.
+    clean : whether to remove foot sliding.
+    """
+
+    out: Path
+    licences: Mapping[str, str]
+    clean: bool
+
+    def walk_at_random(self, motions: "graphs.MotionGraph", seconds: float, seed: int) -> int:
+        """Write a random walk."""
+        from mocap.synthesis.random_walks import cut_walk, dump, wander  # the help needs no NumPy
+
+        limits: dict[str, Any] = {"seconds": seconds, "seed": seed, "clean": self.clean}
+        frames = dump(motions, self.out, **limits, progress=bar("writing"))
+        print_rows(walked=f"{frames / motions.fps:.1f} s at random", wrote=self.out)
+        walk = cut_walk(motions, wander(motions, seed=seed), seconds)
+        write_contents(self.out, motions, walk, self.licences, jolts=seconds <= MEASURED)
+        return 0
+
+    def direct(
+        self, motions: "graphs.MotionGraph", direction: "Direction", settings: "steering.Settings"
+    ) -> int:
+        """Find and write a walk that follows a direction."""
+        with timed_stage("following the direction"):
+            directed = steering.direct(motions, direction, settings=settings)
+        print_rows(walked=directed.report())
+        for number_of_point, arrival in enumerate(directed.arrivals, 1):
+            print_rows(**{f"point {number_of_point}": describe(arrival)})
+        with timed_stage("making the motion"):
+            motion = directed.motion(clean=True if self.clean else None)
+        write_out(motion, self.out)
+        write_contents(self.out, directed.graph, [directed.walk], self.licences, jolts=True)
+        return 0 if directed.stopped in ("", OUT_OF_TIME) else INTERRUPTED
+
+    def follow(self, followed: "Followed", page: Path | None) -> int:
+        """Write a walk along a path, and a page that shows its seams."""
+        print_rows(walked=followed.report())
+        with timed_stage("making the motion"):
+            motion = followed.motion(clean=self.clean or followed.bent is not None)
+        write_out(motion, self.out)
+        write_contents(self.out, followed.graph, [followed.walk], self.licences, jolts=True)
+        if page:
+            from mocap.course.lab.showing import inspector  # the help needs no NumPy
+
+            write_file(page, inspector(followed).page())
+            print_rows(wrote=page)
+        return 0 if followed.found.stopped in ("", OUT_OF_TIME) else INTERRUPTED
+
+
+def _follow(
+    motions: "graphs.MotionGraph",
+    line: "GroundPath",
+    request: "steering.PathRequest",
+    settings: "steering.Settings",
+    bend: float,
+    without: Sequence[str],
+) -> "Followed":
+    """Follow a path, then again without each refused seam, with the rest of the walk kept where it can be."""
+    from mocap.steering.seam_replacing import fraction_kept, graph_without, transitions_from
+
+    followed = steering.follow_path(motions, line, request, settings=settings, bend=bend)
+    for text in without:
+        refused = transitions_from(motions, followed.walk, node_of(text, motions))
+        motions = graph_without(motions, refused)
+        kept = replace(request, kept=followed.walk)
+        changed = steering.follow_path(motions, line, kept, settings=settings, bend=bend)
+        part = fraction_kept(followed.walk, changed.walk, followed.graph)
+        print_rows(without=f"{text}; {part:.0%} of the frames of the walk before are kept")
+        followed = changed
+    return followed
 
 
 def _require_one(path: Path | None, random: str | None, seed: int | None) -> None:

@@ -11,7 +11,8 @@ Reading order (notebooks 01, 10, 11)
  7. `named_sets`: datasets of other laboratories, with their licences, hips and legs
  8. `clip_origins`: the files from which clips were read, to read them again
  9. `clip_licences`: licences that a user states, and those of known data sets
-10. `clip_references`: the clips of a saved graph or web, to find them again and compare them
+10. `packed_clips`: clips as compact arrays, for files that carry their clips
+11. `clip_references`: the clips of a saved graph or web, to find them again and compare them
 """
 
 from mocap._shared import faces

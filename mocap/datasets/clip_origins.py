@@ -20,10 +20,10 @@ class Origin(NamedTuple):
 
     If `mirrored`, the clip is the mirror image of the motion in the file. `labels` are rows (start, stop,
     label) as of `files.label_tables`, which replace the labels of the file; `licence` is that of the clip, ""
-    if it is unknown.
+    if it is unknown. A clip that a file carries has no path.
     """
 
-    path: Path
+    path: Path | None
     skeleton: Path | None = None
     scale: float | None = None
     mirrored: bool = False
@@ -41,8 +41,9 @@ class Origin(NamedTuple):
         '{"path": ["../clips/walk.bvh", "/.../clips/walk.bvh"], "skeleton": [], "scale": 0.0254}'
         """
         skeleton = _places(self.skeleton, folder) if self.skeleton else []
+        places = _places(self.path, folder) if self.path else []
         scale = None if self.scale is None else float(self.scale)
-        kept: dict[str, object] = {"path": _places(self.path, folder), "skeleton": skeleton, "scale": scale}
+        kept: dict[str, object] = {"path": places, "skeleton": skeleton, "scale": scale}
         if self.mirrored:
             kept["mirrored"] = True
         if self.up is not None:
@@ -88,7 +89,7 @@ def stored_options(text: str) -> Origin:
     'CC0'
     """
     kept = json.loads(text)
-    return _with_options(Origin(Path(), None, kept["scale"]), kept)
+    return _with_options(Origin(None, None, kept["scale"]), kept)
 
 
 def _with_options(origin: Origin, kept: dict[str, Any]) -> Origin:

@@ -28,6 +28,7 @@ from mocap.files.load_save import load
 from mocap.files.role_maps import are_packed_roles, packed_roles, unpacked_roles
 
 MOST_FRAMES = 2**31  # of a clip
+NEAR_FRAMES = 2  # frames by which the resampled length of a clip may differ from its duration
 FASTEST = 1e6  # frames per second
 # The arrays of a file for C clips and O origins.
 # reads: statement: a table
@@ -134,9 +135,10 @@ def load_references(
     """
     if clips is None:
         clips = _load_clips(references, path, skeleton, progress)
+        named = clips
     else:
-        clips = _with_stored_labels(clips, references)
-    resampled = [resample(clip, references.fps) for clip in clips]
+        named = _with_stored_labels(clips, references)
+    resampled = [resample(clip, references.fps) for clip in named]
     needed = [clip for clip in resampled if clip.name in references.names]
     with suppress(MocapError):  # give all clips the same end sites (differences are reported below)
         needed = list(require_compatible(needed))
@@ -146,14 +148,16 @@ def load_references(
     chosen = []
     rows = zip(references.names, references.frames, references.fingerprints, strict=True)
     for name, length, digest in rows:
-        if name not in by_name:
+        fitting = [clip for clip in by_name[name] if _is_same(clip, length, digest)]
+        if not fitting:
+            fitting = _same_content(clips, references, len(chosen))
+        if not (fitting or by_name[name]):
             names = shortened(", ".join(dict.fromkeys(clip.name for clip in clips)) or "none")
             raise MocapError(f"{path} needs the clip '{shortened(name)}'; given are: {names}.")
-        fitting = [clip for clip in by_name[name] if _is_same(clip, length, digest)]
         if not fitting:
             raise _difference(path, by_name[name][-1], length)
         chosen.append(fitting[0])
-    return _with_stored_roles(chosen, references)
+    return with_stored_roles(chosen, references)
 
 
 def _with_stored_labels(clips: Sequence[Motion], references: ClipReferences) -> list[Motion]:
@@ -166,7 +170,7 @@ def _with_stored_labels(clips: Sequence[Motion], references: ClipReferences) -> 
     return [label_clips([clip], rows.get(clip.name, ()))[0] for clip in clips]
 
 
-def _with_stored_roles(clips: Sequence[Motion], references: ClipReferences) -> list[Motion]:
+def with_stored_roles(clips: Sequence[Motion], references: ClipReferences) -> list[Motion]:
     """Give the joints of clips the roles that are stored, which replace others; those without keep theirs."""
     chosen = []
     for clip, text in itertools.zip_longest(clips, references.roles):
@@ -198,6 +202,23 @@ def _load_clips(
         (clip,) = label_clips([clip], labels)
         clips.append(replace(mirror(clip) if origin.mirrored else clip, name=name))
     return clips
+
+
+def _same_content(clips: Sequence[Motion], references: ClipReferences, number: int) -> list[Motion]:
+    """Find clips with the content of a reference under another name, or whose mirror image it is."""
+    name = references.names[number]
+    digest = references.fingerprints[number]
+    origin = stored_options(references.origins[number]) if references.origins else Origin(None)
+    fitting: list[Motion] = []
+    for clip in clips if digest else ():
+        if abs(clip.duration * references.fps - references.frames[number]) > NEAR_FRAMES:
+            continue
+        labels = [LabelRow(clip.name, *row) for row in origin.labels]
+        (labelled,) = label_clips([clip], labels)
+        shown = resample(mirror(labelled) if origin.mirrored else labelled, references.fps)
+        if len(shown) == references.frames[number] and fingerprint(shown) == digest:
+            fitting.append(replace(shown, name=name))
+    return fitting
 
 
 def _is_same(clip: Motion, length: int, digest: str) -> bool:

@@ -36,7 +36,8 @@ Reading order (notebooks 01, 10)
 29. `gltf`: writer of glTF files, with joints, skin and animation
 30. `named_tables`: tables with named columns
 31. `label_tables`: labels of clips from tables
-32. `tuned`: the constants that trials chose
+32. `directions`: lines with times, headings, labels and waits
+33. `tuned`: the constants that trials chose
 
 References
 ----------

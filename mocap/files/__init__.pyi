@@ -1,4 +1,7 @@
 from . import asf as asf
+from .directions import DirectedPoint as DirectedPoint
+from .directions import Direction as Direction
+from .directions import load_direction as load_direction
 from .label_tables import LabelRow as LabelRow
 from .label_tables import label_clips as label_clips
 from .label_tables import load_labels as load_labels

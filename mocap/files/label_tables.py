@@ -29,8 +29,6 @@ class LabelRow(NamedTuple):
     --------
     >>> LabelRow("walk", "0s", "1.5s", "stand").label
     'stand'
-
-    Notebook: 06b-pruning-clips
     """
 
     clip: str
@@ -55,8 +53,6 @@ def load_labels(path: str | Path) -> list[LabelRow]:
     ...     _ = file.write_text("clip,from,to,label\nwalk,0s,1.5s,stand\n")
     ...     load_labels(file)
     [LabelRow(clip='walk', start='0s', stop='1.5s', label='stand')]
-
-    Notebook: 06b-pruning-clips
     """
     rows = []
     for line, cells in read_table(path, COLUMNS):
@@ -81,8 +77,6 @@ def save_labels(path: str | Path, rows: Iterable[LabelRow]) -> None:
     ...     save_labels(f"{folder}/labels.csv", [LabelRow("walk", "", "45", "stand")])
     ...     load_labels(f"{folder}/labels.csv")
     [LabelRow(clip='walk', start='', stop='45', label='stand')]
-
-    Notebook: 06b-pruning-clips
     """
     write_table(path, COLUMNS, rows)
 
@@ -107,8 +101,6 @@ def label_clips(clips: Sequence[Motion], rows: Sequence[LabelRow]) -> list[Motio
     >>> (clip,) = label_clips([sample("walk_straight")[:90]], [LabelRow("walk_straight", "", "30", "start")])
     >>> int(clip.labels["start"].sum()), sorted(clip.labels)
     (30, ['start'])
-
-    Notebook: 06b-pruning-clips
     """
     names = [clip.name for clip in clips]
     for row in rows:
@@ -156,8 +148,6 @@ def rows_of(clip: Motion) -> list[LabelRow]:
     >>> from mocap.datasets import sample
     >>> [tuple(row) for row in rows_of(sample("walk_straight"))]
     [('walk_straight', '0s', '9.65s', 'walk')]
-
-    Notebook: 06b-pruning-clips
     """
     stretches = []
     for label, mark in clip.labels.items():

@@ -1,6 +1,7 @@
 """Motion graphs in `.npz` files: nodes and edges as arrays, clips by name and fingerprint.
 
-A file contains no frames of the clips and no code. Files from untrusted sources are safe to read.
+A file contains no code, and frames of clips only if it was packed. Files from untrusted sources are safe to
+read.
 """
 
 from collections.abc import Sequence
@@ -10,15 +11,24 @@ from typing import Any
 import networkx as nx
 import numpy as np
 
-from mocap._shared.archives import Arrays, Kind, Layout, Rules, read_archive, write_archive
+from mocap._shared.archives import (
+    Arrays,
+    Kind,
+    Layout,
+    Rules,
+    kind_of,
+    open_archive,
+    read_archive,
+    write_archive,
+)
 from mocap._shared.progress import Progress
 from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
-from mocap.datasets import clip_references
-from mocap.datasets.clip_origins import Origin
+from mocap.datasets import clip_references, packed_clips
+from mocap.datasets.clip_origins import Origin, stored_options
 from mocap.datasets.clip_references import MOST_FRAMES, ClipReferences
-from mocap.errors import MocapError, warn
+from mocap.errors import MocapError, Remedy, warn
 from mocap.files.load_save import require_path
 from mocap.graphs.motion_graph import MotionGraph, require_graph
 
@@ -39,7 +49,10 @@ ARRAYS: Layout = {
 
 
 class GraphFile(NamedTuple):
-    """The content of a file: the rate, names, lengths, fingerprints and roles of the clips, and the graph."""
+    """The content of a file: the rate, names, lengths, fingerprints and roles of the clips, and the graph.
+
+    `packed` are the arrays of a file that carries its clips, as of `datasets.packed_clips`.
+    """
 
     fps: float
     window: int
@@ -49,9 +62,12 @@ class GraphFile(NamedTuple):
     origins: list[str]
     roles: list[str]
     graph: nx.MultiDiGraph
+    packed: Arrays | None = None
 
 
-def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] = ()) -> None:
+def save(
+    motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] = (), *, pack: bool = False
+) -> None:
     """Write a motion graph to an `.npz` file. An existing file is replaced once the new one is complete.
 
     Parameters
@@ -60,6 +76,8 @@ def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] 
     path : the file.
     origins : the file of each clip, by which `load` finds it again, by default none. Each path is stored
         relative to the folder of the graph, and absolute.
+    pack : whether the file carries its clips, with 16 bits for each number of a quaternion, so that it can be
+        given away. It then stores no paths. `datasets.packed_clips.packing_error` measures the loss.
 
     Raises
     ------
@@ -81,9 +99,15 @@ def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] 
         raise MocapError("The graph comes first: graphs.save(graph, 'graph.npz').")
     require_graph(motion_graph)
     require_path(path)
-    arrays = clip_references.arrays_of_clips(motion_graph.clips, origins, path)
-    arrays |= {"window": motion_graph.window} | _arrays_of_graph(motion_graph.graph)
-    write_archive(path, GRAPH, arrays)
+    of_graph = {"window": motion_graph.window} | _arrays_of_graph(motion_graph.graph)
+    if pack:
+        clips = packed_clips.as_packed(motion_graph.clips)
+        named = [origin._replace(path=None, skeleton=None, labels=()) for origin in origins]
+        arrays = clip_references.arrays_of_clips(clips, named, path) | packed_clips.pack(motion_graph.clips)
+        write_archive(path, PACKED, arrays | of_graph)
+    else:
+        arrays = clip_references.arrays_of_clips(motion_graph.clips, origins, path)
+        write_archive(path, GRAPH, arrays | of_graph)
 
 
 def _arrays_of_graph(graph: nx.MultiDiGraph) -> dict[str, Any]:
@@ -123,7 +147,8 @@ def load(
     ----------
     path : a file from `save`.
     clips : the motions from which it was built, in any order. Other motions are ignored. By default they are
-        bundled samples, or the files that the graph stores, or files of their names in its folder.
+        bundled samples, or the files that the graph stores, or files of their names in its folder. A file
+        that carries its clips needs none.
     skeleton : the `.asf` file of `.amc` clips, by default the one that the graph stores, or one that fits.
     progress : wraps the iterable of files of clips, to show a progress bar.
 
@@ -144,11 +169,22 @@ def load(
     Notebook: 05b-choice-points
     """
     content = read(path)
+    if content.packed is not None:
+        return MotionGraph(tuple(_unpacked(path, content, clips)), content.window, content.graph)
     references = _references(content)
     clips = clip_references.load_references(references, path, clips, skeleton, progress)
     if not any(content.fingerprints):
         warn(f"An older mocap saved {path}: it cannot tell whether its clips have changed; save it anew.")
     return MotionGraph(tuple(clips), content.window, content.graph)
+
+
+def _unpacked(path: str | Path, content: GraphFile, clips: Sequence[Motion] | None) -> list[Motion]:
+    """Return the clips that a file carries."""
+    if clips is not None:
+        raise MocapError(f"{path} carries its clips.", remedy=Remedy("leave out {}", "clips"))
+    assert content.packed is not None
+    packed = packed_clips.unpack(content.packed, content.fps, content.names, content.frames)
+    return clip_references.with_stored_roles(packed, _references(content))
 
 
 def _references(content: GraphFile) -> ClipReferences:
@@ -163,11 +199,14 @@ def read(path: str | Path) -> GraphFile:
     ------
     FormatError, MocapError : as for `load`.
     """
-    arrays = read_archive(path, GRAPH)
-    if arrays["version"] < PORTABLE_FINGERPRINTS:
+    with open_archive(path, GRAPH.wanted) as members:
+        is_packed = kind_of(members) == PACKED.name
+    arrays = read_archive(path, PACKED if is_packed else GRAPH)
+    if not is_packed and arrays["version"] < PORTABLE_FINGERPRINTS:
         arrays["fingerprints"] = np.zeros_like(arrays["fingerprints"])
     arrays.setdefault("roles", np.array([], str))
-    return GraphFile(**{key: arrays[key].tolist() for key in GraphFile._fields[:-1]}, graph=_graph(arrays))
+    values = {key: arrays[key].tolist() for key in GraphFile._fields if key not in ("graph", "packed")}
+    return GraphFile(**values, graph=_graph(arrays), packed=arrays if is_packed else None)
 
 
 def _graph(arrays: Arrays) -> nx.MultiDiGraph:
@@ -188,8 +227,23 @@ def _graph(arrays: Arrays) -> nx.MultiDiGraph:
 
 
 def find_origins(path: str | Path) -> list[Origin]:
-    """Find the files of the clips of a saved graph, as `load` does, none for bundled samples."""
-    return clip_references.find_files_of(_references(read(path)), path)
+    """Find the files of the clips of a saved graph, as `load` does; none for bundled and for packed clips."""
+    content = read(path)
+    return [] if content.packed is not None else clip_references.find_files_of(_references(content), path)
+
+
+def licences_in(path: str | Path) -> dict[str, str]:
+    """Return the licences of the clips of a saved graph, by their names; empty if none is known.
+
+    Raises
+    ------
+    FormatError, MocapError : as for `load`.
+    """
+    content = read(path)
+    licences = {
+        name: stored_options(text).licence for name, text in zip(content.names, content.origins, strict=False)
+    }
+    return licences if any(licences.values()) else {}
 
 
 def _rules(arrays: Arrays) -> Rules:
@@ -226,4 +280,13 @@ def _rules_of_edges(arrays: Arrays) -> Rules:
 
 
 PORTABLE_FINGERPRINTS = 2  # the version since which fingerprints are not computed from all digits
+
+
+def _rules_of_packed(arrays: Arrays) -> Rules:
+    """Yield the validity rules of a file that carries its clips."""
+    yield from _rules(arrays)
+    yield from packed_clips.rules_of_packed(arrays)
+
+
+PACKED = Kind("a packed motion graph", {**ARRAYS, **packed_clips.LAYOUT}, _rules_of_packed)
 GRAPH = Kind("a motion graph", ARRAYS, _rules, version=3, added={"roles": 3})

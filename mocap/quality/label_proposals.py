@@ -45,8 +45,6 @@ def propose_labels(motion: Motion) -> list[LabelRow]:
     >>> clip = replace(sample("stop_and_go"), labels={})
     >>> [row.label for row in propose_labels(clip)][:4]
     ['stand', 'walk', 'turn left', 'stand']
-
-    Notebook: 06b-pruning-clips
     """
     require_motion(motion)
     if motion.labels:

@@ -19,14 +19,21 @@ Reading order (notebooks 08, 12, 17, 18)
  6. `bent_following`: walks that are bent onto a path
  7. `path_following`: search for a walk along a path, by layers and by the paper's branch and bound
  8. `waypoints_and_crowds`: waypoints with labels and times, and characters that avoid each other
- 9. `characters`: the protocol, the pose of a step, a walk by given commands, and the delay of its response
-10. `graph_control`: a character on a motion graph, and its look-ahead
-11. `leg_reach`: inverse kinematics of a leg in closed form
-12. `held_feet`: standing feet are held while a character moves on
-13. `root_turning`: the way to steer: additional rotation about the root, longer or shorter steps, held feet
-14. `foot_turning`: additional rotation about the planted foot, as a comparison
-15. `judged_control`: one evaluation protocol for all characters
-16. `tuned`: the constants that trials chose
+ 9. `seam_replacing`: walks without some of their seams
+10. `standing`: standing stretches as part of a graph
+11. `waiting`: walks through standing stretches that last a given time
+12. `detours`: lines around discs
+13. `direction_search`: prices of headings, discs, and the time and place of arrival
+14. `anchoring`: corrections that are spread over the steps of a walk
+15. `directing`: walks that follow a direction: they stand, wait, turn and arrive
+16. `characters`: the protocol, the pose of a step, a walk by given commands, and the delay of its response
+17. `graph_control`: a character on a motion graph, and its look-ahead
+18. `leg_reach`: inverse kinematics of a leg in closed form
+19. `held_feet`: standing feet are held while a character moves on
+20. `root_turning`: the way to steer: additional rotation about the root, longer or shorter steps, held feet
+21. `foot_turning`: additional rotation about the planted foot, as a comparison
+22. `judged_control`: one evaluation protocol for all characters
+23. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -2,6 +2,9 @@ from .characters import Character as Character
 from .characters import CommandClock as CommandClock
 from .characters import measure_delay as measure_delay
 from .characters import steer as steer
+from .directing import Directed as Directed
+from .directing import direct as direct
+from .direction_search import Prices as Prices
 from .followed import Followed as Followed
 from .foot_turning import FootTurner as FootTurner
 from .graph_control import Controller as Controller
@@ -16,6 +19,8 @@ from .path_objective import PathRequest as PathRequest
 from .path_objective import Settings as Settings
 from .root_turning import RootTurner as RootTurner
 from .root_turning import as_turned as as_turned
+from .standing import StandingGraph as StandingGraph
+from .standing import with_standing as with_standing
 from .waypoints_and_crowds import Waypoint as Waypoint
 from .waypoints_and_crowds import through_waypoints as through_waypoints
 from .waypoints_and_crowds import walk_crowd as walk_crowd

@@ -15,6 +15,7 @@ from mocap.body.ground_path import GroundPath
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import CompiledGraph
+from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import Node
 from mocap.graphs.tuned import TUNED as GRAPH_TUNED
 from mocap.steering.tuned import TUNED
@@ -38,6 +39,8 @@ class PathRequest:
     others : tracks of other bodies on the ground, shape (T, 2) each, with a row for each frame. A body stays
         at the end of its track.
     apart : the distance to keep from them, metres.
+    kept : edges of an earlier walk. Frames of other edges cost `Settings.change` each, so that the walk stays
+        as it was where it can.
 
     Examples
     --------
@@ -55,6 +58,7 @@ class PathRequest:
     correction: float = 0.5
     others: Sequence[Array] = ()  # reads: name: users give it as a keyword
     apart: float = 0.8  # reads: name: users give it as a keyword
+    kept: Sequence[Edge] = ()
 
 
 @dataclass(frozen=True)
@@ -73,6 +77,7 @@ class Settings:
     label : the price of each frame without the requested label.
     late : factor of the squared delay (or advance) in seconds, in each frame.
     crowding : factor of the squared shortfall of the distance to another body in metres, in each frame.
+    change : the price of each frame of an edge that is not in `PathRequest.kept`, if that is given.
     bend : for walks that are bent onto the path, factor of the squared angular velocity in radians per second
         that bending adds, in each frame.
     width : the beam width, by default 100, or 50 if there are no requests beside the path.
@@ -101,6 +106,7 @@ class Settings:
     label: float = 0.1
     late: float = 0.2
     crowding: float = 1.0
+    change: float = 0.02
     bend: float = 0.05
     width: int | None = None
     cell: float = 0.1
@@ -175,6 +181,8 @@ class Route:
     @cached_property
     def bare(self) -> bool:
         """Whether there are no requests beside the path."""
+        if self.request.kept:
+            return False
         return not len(self.others) and bool((self.label < 0).all() and np.isnan(self.clock).all())
 
 

@@ -49,12 +49,13 @@ class Found(NamedTuple):
     stopped: str
 
 
-def find_walk(
+def find_walk(  # noqa: PLR0913 (a search, its limits and its kind)
     graph: CompiledGraph,
     route: Route,
     starts: States,
     settings: Settings,
     deadline: Deadline | None = None,
+    kind: Callable[[CompiledGraph, Route, States, Settings], PathSearch] | None = None,
 ) -> Found:
     """Find the best walk from one of the starts to the end of a route.
 
@@ -64,13 +65,14 @@ def find_walk(
     ----------
     graph, route, starts, settings : as for `PathSearch`.
     deadline : a deadline shared by several searches, by default that of the settings, from the call.
+    kind : creates the search, by default a `PathSearch`.
 
     Raises
     ------
     NoWalk : if every walk ends before the route, or the search was stopped before its first step.
     """
     deadline = deadline or Deadline(settings.deadline)
-    search = PathSearch(graph, route, starts, settings)
+    search = (kind or PathSearch)(graph, route, starts, settings)
     try:
         for layer in settings.progress(range(int(route.length / TUNED.layer) + 1)):
             for walks in search.rounds(layer):
@@ -105,6 +107,8 @@ class PathSearch(LayeredSearch):
             self.progress = np.maximum(route.smooth.step, TUNED.creep / graph.fps)
         else:
             self.progress = graph.progress
+        kept = set(route.request.kept)
+        self.is_new = np.array([edge not in kept for edge in graph.edges]) if kept else None
         macro_edges = graph.macro_edges
         cumulated = np.concatenate([[0.0], np.cumsum(self.progress)])
         stops = macro_edges.starts + macro_edges.counts
@@ -181,6 +185,8 @@ class PathSearch(LayeredSearch):
             costs += prices.stray * costs**2
         if route.bare:
             return np.asarray(np.add.reduceat(costs, first))
+        if self.is_new is not None:
+            costs += np.where(self.is_new[graph.of[row]], prices.change, 0.0)
         point = route.point(along)
         if graph.label_names:
             label = route.label[point]

@@ -10,7 +10,8 @@ Reading order (notebook 07)
 2. `random_walks`: random walks, and hours of motion in constant memory
 3. `bounded_search`: the walk of least cost by branch and bound, as in the paper
 4. `ground_walks`: trajectories of walks on the ground, for searches
-5. `tuned`: the constants that trials chose
+5. `walk_tables`: a table of the stretches and the seams of a walk
+6. `tuned`: the constants that trials chose
 
 References
 ----------

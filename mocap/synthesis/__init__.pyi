@@ -3,6 +3,9 @@ from .bounded_search import SearchResult as SearchResult
 from .bounded_search import branch_and_bound as branch_and_bound
 from .bounded_search import search_ahead as search_ahead
 from .random_walks import random_walk as random_walk
+from .walk_tables import WalkPart as WalkPart
+from .walk_tables import walk_parts as walk_parts
+from .walk_tables import write_parts as write_parts
 from .walk_to_motion import seams as seams
 from .walk_to_motion import sources as sources
 from .walk_to_motion import to_motion as to_motion

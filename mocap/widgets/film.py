@@ -4,6 +4,7 @@ import re
 import subprocess
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from functools import partial
 from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -21,17 +22,22 @@ from mocap.widgets.player import play
 
 SUFFIXES = (".gif", ".mp4", ".png", ".html")
 SIZES = {".gif": (640, 360), ".mp4": (848, 480)}  # width and height of a film, pixels
+SMALLEST = 64  # pixels, of a side of a film
+LARGEST = 4096  # pixels
 COLOURS = 128  # number of colours of a .gif
 BACKGROUND = slice(8)  # columns of pixels at the left edge, for the colours of the background
 ROUNDING = 1e-9  # frames, the rounding error of seconds · fps
 
 
-def save_animation(
+def save_animation(  # noqa: PLR0913 (what moves, where it is written, and how it is seen)
     motion: Motion | Sequence[Motion],
     path: str | Path,
     *,
     discs: ArrayLike = (),
     fps: float = 25.0,
+    size: tuple[int, int] | None = None,
+    yaw: float | None = None,
+    captions: bool = False,
     progress: Progress = iter,
 ) -> Path:
     """Save an animation of a motion: a body on the ground, its path, and a camera that follows it.
@@ -44,6 +50,10 @@ def save_animation(
     discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
     fps : frames per second of a film. The frames of a GIF last whole hundredths of a second, so 20, 25 and 50
         are exact.
+    size : width and height of a film in pixels, by default 640 × 360 for .gif and 848 × 480 for .mp4.
+    yaw : the direction from which the camera looks, radians about +y, where 0 looks towards -z, by default
+        0.7. The reader of a page can change it.
+    captions : whether a film shows the name of each motion in its colour; a page always does.
     progress : wraps the frames of a film as they are drawn, to show a bar.
 
     Returns
@@ -67,22 +77,34 @@ def save_animation(
         raise MocapError("The motion comes first: widgets.save_animation(motion, 'walk.gif').")
     motions = [motion] if isinstance(motion, Motion) else list(require_motions(motion))
     suffix = Path(path).suffix.lower()
-    if suffix not in SUFFIXES:
-        raise MocapError(f"An animation is written as {', '.join(SUFFIXES[:-1])} or .html, got '{path}'.")
-    if not motions:
-        raise MocapError("There is no motion to show.")
-    if suffix == ".mp4":
-        require_ffmpeg()
+    _check_film(motions, path, suffix, size)
     with replacing(path) as unfinished:
-        player = play(*motions, discs=discs)
+        player = play(*motions, discs=discs, yaw=yaw)
         if suffix in (".html", ".png"):
             unfinished.write_bytes(player.page().encode() if suffix == ".html" else player.picture)
         else:
             write = write_mp4 if suffix == ".mp4" else _write_gif
             scene = FilmedScene(player.scene)
+            draw = partial(scene.captioned if captions else scene.picture, size=size or SIZES[suffix])
             frames = progress(range(int(scene.seconds * fps + ROUNDING) + 1))
-            write((scene.picture(frame / fps, SIZES[suffix]) for frame in frames), unfinished, fps)
+            write((draw(frame / fps) for frame in frames), unfinished, fps)
     return Path(path)
+
+
+def _check_film(
+    motions: Sequence[Motion], path: str | Path, suffix: str, size: tuple[int, int] | None
+) -> None:
+    """Raise for another suffix, for no motion, for a size that no film has, and for .mp4 without ffmpeg."""
+    if suffix not in SUFFIXES:
+        raise MocapError(f"An animation is written as {', '.join(SUFFIXES[:-1])} or .html, got '{path}'.")
+    if not motions:
+        raise MocapError("There is no motion to show.")
+    # Encoders need an even number of pixels.
+    if size is not None and not all(SMALLEST <= side <= LARGEST and side % 2 == 0 for side in size):
+        needs = f"an even width and height from {SMALLEST} to {LARGEST} pixels"
+        raise MocapError(f"A film has {needs}, got {size[0]} × {size[1]}.")
+    if suffix == ".mp4":
+        require_ffmpeg()
 
 
 def _write_gif(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> None:

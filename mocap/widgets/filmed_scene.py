@@ -15,12 +15,13 @@ from typing import Any
 import numpy as np
 from matplotlib.colors import to_rgb
 from numpy.typing import ArrayLike, NDArray
+from PIL import Image, ImageDraw, ImageFont
 from scipy.ndimage import gaussian_filter1d
 
 from mocap._shared.arrays import Array
 from mocap.plotting.bodies import rims
 from mocap.plotting.style import FLOOR, QUIET
-from mocap.widgets.shaded_picture import GROUND, ShadedPicture, blend
+from mocap.widgets.shaded_picture import GROUND, YAW, ShadedPicture, blend
 from mocap.widgets.walk_figure import capsules_at
 
 AROUND = 9  # metres of ground that are drawn on each side, beyond the characters
@@ -39,6 +40,8 @@ FOOTPRINT_RADIUS = 0.055  # metres
 EYE_LEVEL = np.array([0, 0.9, 0])  # metres, the height at which the camera looks
 NEAREST = 4.2  # metres, the distance of the camera from a single character
 ZOOM = 1.5  # additional metres of distance for each metre between characters
+SMALLEST_TEXT = 10  # pixels, the height of a name
+TEXT_LINES = 26  # lines of names that fit into a picture
 FLAT = [1, 0, 1]  # factor that projects points to the ground
 XZ = [0, 2]
 SCENE = re.compile(r'<div class="mocap-player">.*?<script type="application/json">(.*?)</script>', re.DOTALL)
@@ -100,7 +103,8 @@ class FilmedScene:
         """
         time = time % self.seconds if time > self.seconds > 0 else time
         target = np.array([np.interp(time, self.times, coordinate) for coordinate in self.targets.T])
-        page = ShadedPicture(size, target + EYE_LEVEL, NEAREST + ZOOM * self.spread)
+        distance = NEAREST + ZOOM * self.spread
+        page = ShadedPicture(size, target + EYE_LEVEL, distance, yaw=self.scene.get("yaw", YAW))
         self.draw_grid(page, np.round(target), AROUND + round(self.spread))
         for rim in rims(self.scene["obstacles"]):
             page.area(rim, to_rgb(QUIET))
@@ -114,6 +118,22 @@ class FilmedScene:
             sides = self.body_colours(number, time)
             colours += [sides[side] for *_, side in character["pieces"]]
         return page.finished(np.concatenate(pieces), np.array(colours))
+
+    def captioned(self, time: float, size: tuple[int, int]) -> NDArray[np.uint8]:
+        """Draw a picture as `picture` does, with the names of the characters in the colours of their bodies.
+
+        Parameters
+        ----------
+        time, size : as for `picture`.
+        """
+        image = Image.fromarray(self.picture(time, size))
+        pen = ImageDraw.Draw(image)
+        height = max(SMALLEST_TEXT, size[1] // TEXT_LINES)
+        font = ImageFont.load_default(size=height)
+        for number, character in enumerate(self.scene["characters"]):
+            colour = tuple(round(255 * value) for value in self.body_colours(number, time)[0])
+            pen.text((height, (0.7 + 1.4 * number) * height), character["name"][:60], fill=colour, font=font)
+        return np.asarray(image)
 
     def draw_grid(self, page: ShadedPicture, centre: Array, reach: int, colour: str = FLOOR) -> None:
         """Draw a grid on the ground, `reach` metres to each side of a centre, where it fades out."""

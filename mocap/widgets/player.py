@@ -159,6 +159,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     follow: bool = True,
     alt: str = "",
     names: Sequence[str] = (),
+    yaw: float | None = None,
 ) -> Player:
     """Play motions in a notebook. The reader can rotate the view, step, and change the speed.
 
@@ -177,6 +178,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     follow : whether the camera follows the first character.
     alt : a sentence for readers who do not see the player. By default it contains names and durations.
     names : the name of each motion in the legend, by default that of its clip. Equal names are numbered.
+    yaw : the direction from which the camera looks first, radians about +y, by default 0.7.
 
     Returns
     -------
@@ -208,9 +210,8 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     astray = runs(np.asarray(off, float) > FAR)
     obstacles = np.reshape(np.asarray(discs, float), (-1, 3))
     shown = tuple(positions) or tuple(joint_positions(motion) for motion in motions)
-    return Player(
-        motions, tuple(sources), seam_frames, points, astray, obstacles, shown, follow=follow, description=alt
-    )
+    look: dict[str, Any] = {"follow": follow, "description": alt, "yaw": yaw}
+    return Player(motions, tuple(sources), seam_frames, points, astray, obstacles, shown, **look)
 
 
 def _renamed(motions: Sequence[Motion], names: Sequence[str]) -> tuple[Motion, ...]:
@@ -245,6 +246,7 @@ class Player(Embedded):
     positions: Sequence[Array]
     follow: bool
     description: str
+    yaw: float | None = None
     scripts = (*SHADED, *SHARED, Path(__file__).with_name("player.js"))
     __repr__ = Embedded.__repr__  # a record would print its fields
 
@@ -278,6 +280,7 @@ class Player(Embedded):
         fps = self.motions[0].fps
         scene = {"alt": self.alt, "number": 0, "reports": False, "follow": self.follow, **LOOK}
         scene |= {"fps": fps, "frames": max(1 + round(motion.duration * fps) for motion in self.motions)}
+        scene |= {} if self.yaw is None else {"yaw": self.yaw}
         scene |= {"asked": self.path.round(3).tolist(), "obstacles": self.discs.round(3).tolist()}
         return scene | {"characters": characters, "data": zlib.compress(data)}
 

@@ -40,6 +40,7 @@
  * @property {boolean} follow
  * @property {boolean} [drawable] whether the reader may draw a path
  * @property {boolean} [autoplay]
+ * @property {number} [yaw] radians, from where the camera looks first
  * @property {string[]} sides the colours of the middle, the left and the right of a body
  * @property {Marks} marks
  * @property {number} fps
@@ -52,6 +53,7 @@
 
 export class Camera {
   /** @type {number} */
+  home = 0.7; // the yaw to which the view returns
   yaw = 0.7;
   /** @type {number} */
   pitch = 0.25;
@@ -78,7 +80,7 @@ export class Camera {
 
   /** @param {number} pitch */
   reset(pitch) {
-    this.yaw = 0.7;
+    this.yaw = this.home;
     this.pitch = pitch;
     this.zoom = 1;
   }

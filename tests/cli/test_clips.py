@@ -12,8 +12,10 @@ from urllib.request import url2pathname
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from mocap.body import Motion, concatenate, joint_positions, resample, rotations
+from mocap.cli.clips import arranged
 from mocap.datasets import samples
 from mocap.files import conversion, load_save
 from tests.files.acclaim_clips import write_acclaim
@@ -473,3 +475,19 @@ def test_the_promised_keys_are_those_of_the_page():
         for name in re.findall(r"`(\w+)`", row)
     ]
     assert named == KEYS
+
+
+def test_several_clips_are_shown_beside_or_upon_each_other_with_their_names(folder, run):
+    clips = folder / "clips"
+    (clips / "more" / "b.BVH").rename(clips / "b.bvh")
+    motions = [load_save.load(clips / f"{name}.bvh") for name in "ab"]
+    apart, together = (arranged(motions, layout) for layout in ("beside", "upon"))
+    starts = [[motion.root_positions[0, [0, 2]] for motion in placed] for placed in (apart, together)]
+    assert np.allclose(np.subtract(*starts[0]), (1.2, 0)) and np.allclose(starts[1], 0)
+    assert arranged(motions, "as-is") == motions
+    run("view clips/a.bvh clips/b.bvh --camera 90 -o both.html")
+    page = (folder / "both.html").read_text("utf-8")
+    assert all(text in page for text in ('"name":"a"', '"name":"b"', f'"yaw":{math.pi / 2}'))
+    run("view clips/a.bvh clips/b.bvh --size 160x90 --rate 5 -o both.gif")
+    with Image.open(folder / "both.gif") as film:
+        assert film.size == (160, 90) and film.n_frames > 4

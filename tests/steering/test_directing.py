@@ -1,0 +1,157 @@
+"""Directed walks stand, wait, turn and arrive as they are told, or say why not; discs are not entered."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocap import graphs
+from mocap.body import resample
+from mocap.datasets import sample
+from mocap.errors import MocapWarning
+from mocap.files import DirectedPoint, Direction
+from mocap.steering import direct, with_standing
+from mocap.steering.anchoring import Anchor, fit_to_anchors, headings_in, rotate_at_ends
+from mocap.steering.detours import along_line, around_discs
+from mocap.steering.direction_search import least_sums
+from mocap.steering.waiting import Standing, find_waits
+from mocap.synthesis.walk_to_motion import require_walk
+from tests.refusals import refused
+
+NAMES = ("stop_and_go", "walk_straight", "walk_curve_1")
+P = DirectedPoint
+
+
+@pytest.fixture(scope="module")
+def standing():
+    clips = [resample(sample(name), 30) for name in NAMES]
+    return with_standing(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
+
+
+def speed(motion, frame):
+    steps = np.diff(motion.root_positions[:, [0, 2]], axis=0)
+    return float(np.hypot(*steps[frame])) * motion.fps
+
+
+@pytest.mark.parametrize("facing", [0.0, math.pi / 2, -2.5])
+def test_a_walk_starts_and_ends_standing_where_and_as_it_is_told(standing, facing):
+    asked = Direction([P(1, 0), P(1, 5)], start="stand", end="stand", facing=facing)
+    walked = direct(standing, asked)
+    require_walk(walked.graph, walked.walk)
+    motion = walked.motion()
+    assert np.hypot(*(motion.root_positions[-1, [0, 2]] - (1, 5))) < 0.1
+    assert abs(math.remainder(headings_in(motion)[-1] - facing, math.tau)) < math.radians(10)
+    assert speed(motion, 0) < 0.2 and speed(motion, -1) < 0.2
+
+
+def test_a_wait_lasts_as_long_as_asked_and_the_body_turns_before_it(standing):
+    walked = direct(standing, Direction([P(0, 0), P(0, 4, heading=1.0, wait=2.0), P(3, 4)], end="stand"))
+    motion = walked.motion()
+    arrives = walked.passes[1]
+    still = motion.root_positions[arrives : arrives + 55, [0, 2]]
+    assert np.hypot(*(still - (0, 4)).T).max() < 0.15
+    facing = headings_in(motion)[arrives : arrives + 55]
+    assert np.abs(facing - 1.0).max() < 0.2
+    assert np.hypot(*(motion.root_positions[-1, [0, 2]] - (3, 4))) < 0.1
+
+
+def test_a_walk_arrives_in_time_by_standing_longer_and_says_so_if_it_cannot(standing):
+    later = Direction([P(0, 0), P(0, 5, t=11.0)], start="stand", end="stand")
+    assert abs(direct(standing, later).arrivals[-1].late) < 0.3
+    with pytest.warns(MocapWarning, match="later than asked at point 2 .* no clips walk so fast"):
+        direct(standing, Direction([P(0, 0), P(0, 5, t=2.0)], start="stand", end="stand"))
+
+
+def test_a_walk_goes_around_discs_which_its_root_does_not_enter(standing):
+    discs = [(0.1, 3, 0.6), (1.0, 6, 0.5)]
+    walked = direct(standing, Direction([P(0, 0), P(0, 9)], end="stand", around=discs))
+    ground = walked.motion().root_positions[:, [0, 2]]
+    for x, z, radius in discs:
+        assert np.hypot(*(ground - (x, z)).T).min() > radius
+    assert walked.arrivals[-1].off < 0.1
+
+
+def test_clips_that_never_stand_and_places_inside_discs_are_refused():
+    clips = [resample(sample("walk_straight"), 30)]
+    walking = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
+    line = [P(0, 0), P(0, 3)]
+    refused(
+        "no clip of the graph stands still for 0.4 s: add a clip that stops",
+        direct,
+        walking,
+        Direction(line, end="stand"),
+    )
+    discs = Direction(line, around=[(0, 3, 0.5)])
+    refused("ends at x = 0.00, z = 3.00, which is inside a disc", direct, walking, discs)
+    one_place = Direction([P(0, 0, t=0), P(0, 0, t=3)])
+    refused("All points of the direction are in one place", direct, walking, one_place)
+
+
+def test_a_line_without_wishes_is_followed_as_before(standing):
+    walked = direct(standing, [P(0, 0), P(0, 6)])
+    ground = walked.fitted.root_positions[:, [0, 2]]
+    assert np.abs(ground[:, 0]).max() < 0.15 and walked.arrivals[-1].off < 0.3
+
+
+def test_the_label_stand_overrules_the_pace():
+    clip = resample(sample("walk_straight"), 30)
+    mark = np.arange(len(clip)) < 30
+    graph = graphs.from_transitions([replace(clip, labels={"stand": mark})], [], window=10)
+    assert {frame for _, frame in with_standing(graph).nodes} == {*range(0, 31, 3)}
+
+
+@given(st.floats(-3, 3), st.floats(-3, 3), st.floats(0.2, 1.0), st.floats(0.05, 0.7))
+def test_lines_stay_out_of_a_disc_and_keep_their_ends(x, z, radius, clearance):
+    ends = np.array([-5 + 0j, 5 + 0j])
+    line = around_discs(ends, [(complex(z, x), radius)], clearance)
+    assert (line[[0, -1]] == ends).all()
+    fine = np.interp(
+        np.linspace(0, 1, 999) * along_line(line)[-1], along_line(line), line.real
+    ) + 1j * np.interp(np.linspace(0, 1, 999) * along_line(line)[-1], along_line(line), line.imag)
+    assert np.abs(fine - complex(z, x)).min() > radius
+
+
+def test_discs_that_leave_no_room_are_passed_together_and_a_closed_bay_is_refused():
+    row = [(complex(0, x), 0.5) for x in (-0.6, 0.6)]
+    line = around_discs(np.array([-4 + 0j, 4 + 0j]), row, 0.4)
+    assert np.abs(line.imag).max() > 1.3
+    ring = [(1.2 * np.exp(1j * angle), 0.5) for angle in np.arange(0, 6, 0.7)]
+    refused("No way leads to", around_discs, np.array([-4 + 0j, 0j]), ring, 0.4)
+
+
+def test_anchors_are_met_and_a_body_that_stands_stays():
+    clip = resample(sample("stop_and_go"), 30)
+    start = complex(clip.root_positions[0, 2], clip.root_positions[0, 0])
+    anchors = [Anchor(0, start, 0.0), Anchor(250, start + 5 + 1j, 0.3)]
+    fitted = fit_to_anchors(clip[:251], anchors)
+    place = fitted.root_positions[-1]
+    assert abs(complex(place[2], place[0]) - anchors[1].position) < 1e-9
+    assert abs(headings_in(fitted)[-1] - 0.3) < 1e-9
+    assert np.abs(np.diff(fitted.root_positions[:50], axis=0)).max() < 0.003
+
+
+def test_turns_at_ends_are_no_faster_than_people_turn_if_there_is_time():
+    clip = resample(sample("walk_straight"), 30)
+    turn = headings_in(rotate_at_ends(clip, -1.5, 2.0)) - headings_in(clip)
+    assert np.abs(np.diff(np.unwrap(turn))).max() * clip.fps < math.radians(101)
+    assert abs(turn[0] + 1.5) < 1e-9 and abs(turn[-1] - 2.0) < 1e-9
+
+
+def test_the_shortest_sums_are_those_of_trying_all_ways(standing):
+    graph = standing.compiled
+    ends = np.array([node in standing.arriving for node in graph.nodes])
+    sums = least_sums(graph, graph.macro_edges.frames.astype(float), ends)
+    source = np.repeat(np.arange(len(graph.nodes)), np.diff(graph.macro_edges.first))
+    target = graph.target[graph.macro_edges.last]
+    assert (sums[source] <= graph.macro_edges.frames + sums[target]).all() and (sums[ends] == 0).all()
+
+
+def test_waits_backwards_are_walks_that_lead_to_the_node():
+    forwards = {(0, 0): [Standing(((0, 0), (0, 9), 0), (0, 9), 9, 0.0)]}
+    backwards = {(0, 9): [Standing(((0, 0), (0, 9), 0), (0, 0), 9, 0.0)]}
+    assert find_waits(forwards, (0, 0), 9, 0) == {(0, 9): [((0, 0), (0, 9), 0)]}
+    assert find_waits(backwards, (0, 9), 9, 0) == {(0, 0): [((0, 0), (0, 9), 0)]}
+    assert find_waits(forwards, (0, 0), 5, 1) == {}
