@@ -38,11 +38,10 @@ class Tuned:
     overrun_fraction: float = 0.02  # of the path's length, in addition
 
     # Characters that are turned about their roots
-    turn_price: float = (
-        0.3  # metres per radian that a clip must be turned. At 0 one circle is walked for ever
-    )
+    turn_price: float = 0.3  # metres per radian that a clip is turned. At 0 one circle is walked for ever
     turned_seam: float = 3.0  # factor of the price of a seam, as no seam is needed for a turn. At 1 more jolt
     pace_price: float = 6.0  # factor of the price of a wrong pace, which is stretched. At 0 fast clips jolt
+
     # Directions
     standing_seconds: float = 0.4  # seconds that a clip must stand to be a start or an end. 0.2 to 0.6 agree
     starting_seconds: float = 0.5  # of a standing stretch, its end, in which walks start. 0.3 to 1 agree
