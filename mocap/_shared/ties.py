@@ -67,4 +67,5 @@ def whole_steps(values: ArrayLike, step: float) -> NDArray[Any]:
     [300000000.0, 300000000.0, 400000000.0, inf]
     """
     multiples = np.asarray(np.divide(values, step))
-    return np.rint(multiples, out=multiples)
+    np.rint(multiples, out=multiples)
+    return multiples

@@ -153,8 +153,9 @@ def _best_orders(
     orders = []
     for start in range(0, pairs, block):
         rows = slice(start, start + block)
-        groups = (Configuration(*(field[rows] for field in group)) for group in (first, second))
-        squares = assignment_costs(*groups, rotation[rows], translation[rows])
+        first_rows = Configuration(*(field[rows] for field in first))
+        second_rows = Configuration(*(field[rows] for field in second))
+        squares = assignment_costs(first_rows, second_rows, rotation[rows], translation[rows])
         # Integers have no rounding errors: orders of equal cost stay equal.
         orders += [linear_sum_assignment(costs)[1] for costs in whole_steps(squares, EQUAL_COSTS)]
     return np.array(orders)
