@@ -38,7 +38,7 @@ class Tuned:
     overrun_fraction: float = 0.02  # of the path's length, in addition
 
     # Characters that are turned about their roots
-    turn_price: float = (
+    rotation_price: float = (
         0.3  # metres per radian that a clip must be turned. At 0 one circle is walked for ever
     )
     turned_seam: float = 3.0  # factor of the price of a seam, as no seam is needed for a turn. At 1 more jolt
