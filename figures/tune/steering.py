@@ -159,7 +159,7 @@ TRIALS = {
     "wait_step": Trial(crossing, (0.25, 1.0)),
     "detours": Trial(crossing, (0, 1)),
     "passing": Trial(passed, (0.2, 0.0, 0.05)),
-    "turn_price": Trial(commanded, (0.0, 0.1, 0.6)),
+    "rotation_price": Trial(commanded, (0.0, 0.1, 0.6)),
     "turned_seam": Trial(commanded, (1.0, 6.0)),
     "pace_price": Trial(commanded, (0.0, 3.0, 12.0)),
 }

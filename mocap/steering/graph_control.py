@@ -273,7 +273,7 @@ class Controller:
         """
         velocity, _ = self.command
         pace = np.abs(moved) - abs(velocity) * seconds
-        return (TUNED.turn_price * turn) ** 2 / turning + TUNED.pace_price * pace**2 / seconds
+        return (TUNED.rotation_price * turn) ** 2 / turning + TUNED.pace_price * pace**2 / seconds
 
     def _choose(self) -> None:
         """Take the first macro-edge of the best walk, and look ahead from its end."""

@@ -38,7 +38,7 @@ class Tuned:
     overrun_fraction: float = 0.02  # of the path's length, in addition
 
     # Characters that are turned about their roots
-    turn_price: float = 0.3  # metres per radian that a clip is turned. At 0 one circle is walked for ever
+    rotation_price: float = 0.3  # metres per radian, of a clip that is turned. At 0 one circle is walked on
     turned_seam: float = 3.0  # factor of the price of a seam, as no seam is needed for a turn. At 1 more jolt
     pace_price: float = 6.0  # factor of the price of a wrong pace, which is stretched. At 0 fast clips jolt
 
