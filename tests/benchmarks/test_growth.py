@@ -71,4 +71,4 @@ def test_a_crowd_that_crosses_one_place():
 
 def test_a_group_of_more_members():
     """Two configurations are compared by an assignment, whose time grows with the cube of the members."""
-    print_exponent("build_group", (8, 16, 32), "members", build_group, 2, repeats=1)
+    print_exponent("build_group", (8, 16, 32), "members", build_group, 1.6, repeats=1)
