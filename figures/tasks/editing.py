@@ -5,7 +5,8 @@ over the clip's own, from half a second before the event to half a second after 
 from the root to the base of the neck leans otherwise, at most; `neck` how much further than in the clip the
 head bends against that way, at most; `through` how deep two bones, drawn as capsules, are in one another
 beyond how deep they are in the clip, at most. Pins are boxes: row f of `low` and `high` has x, y and z of
-each of the `joints`, metres; -inf and inf leave an axis free.
+each of the `joints`, metres; -inf and inf leave an axis free. `edit` solves spacetime constraints, splines
+over the whole motion, and then closes what remains; `five levels` are splines of several knot spacings.
 """
 
 from collections.abc import Iterator
@@ -17,7 +18,6 @@ from mocap.body import Motion, heading, joint_positions, rotations
 from mocap.editing import (
     REACH,
     Pins,
-    Stage,
     difference,
     displaced,
     edit,
@@ -28,8 +28,6 @@ from mocap.editing import (
     plant_pins,
     solve,
 )
-from mocap.editing.solver import closing_stages
-from mocap.editing.tuned import TUNED
 from tasks import Case
 from tasks._measures import through
 
@@ -44,10 +42,6 @@ STONES, BARS = (0.1, 0.3, 0.5), (0.9, 0.75)  # metres; shares of the height of t
 HEAD, FEET = ("head_end", "head", "upperneck", "lowerneck"), ("lfoot", "ltoes")
 SECONDS, AROUND, HELD = 5.0, 0.5, 0.4
 AHEAD = (-0.15, 0.3, 0.15)  # metres, to the body's left, up and ahead: where the hand shall be
-SPACETIME = (  # one spline for the whole motion, then what closes the rest of the distance
-    Stage(knots=TUNED.worn_knots, decay=TUNED.worn_decay, passes=TUNED.worn_passes),
-    *closing_stages(),
-)
 NOISE = ("hand", "finger", "thumb", "_end")  # of names of joints whose accelerations are those of markers
 
 
@@ -114,7 +108,6 @@ def in_between(case: Case) -> Motion:
 
 METHODS = {
     "edit": lambda case: edit(case.given["motion"], pins_of(case)),
-    "spacetime, as in retargeting": lambda case: solve(case.given["motion"], pins_of(case), SPACETIME).motion,
     "five levels": lambda case: hierarchy(case.given["motion"], pins_of(case))[0],
     "each frame by itself": lambda case: solve(case.given["motion"], pins_of(case), [REACH]).motion,
     "linear in-betweening": in_between,

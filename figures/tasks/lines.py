@@ -3,7 +3,8 @@
 Off: the root's mean distance from the line; worst: its largest; left out: the largest distance of a point of
 the line from the walk. Foot sliding: the speed of low feet. Jolting: frames whose velocity jumps further
 than in 99.9 % of the clips' own. `layered search` is not bent; `laid on the line` is bent, and its feet left
-alone. Feet slide and velocities jump less in walks that leave the line, where the clips never turn.
+alone. The CPU time of `bent` is that of the clean-up alone. Feet slide and velocities jump less in walks that
+leave the line, where the clips never turn.
 """
 
 from collections.abc import Iterator

@@ -128,7 +128,7 @@ TRIALS = {
     "beyond_worst": Trial(fitting, (1.0, 1.5)),
     "most_range": Trial(fitting, (0.0, 1.0)),
     "fitting": Trial(fitting, ((15, 60), (100, 400))),
-    "turn_width": Trial(fitting, (np.radians(7), np.radians(28))),
+    "rotation_width": Trial(fitting, (np.radians(7), np.radians(28))),
     "change_from": Trial(changes, (0.45, 0.0, 0.3)),
     "change_to": Trial(changes, (0.55, 0.7, 1.0)),
     "step_phases": Trial(changes, ((0.3, 0.7), (0.0, 1.0), (0.15, 0.85))),
@@ -138,13 +138,13 @@ TRIALS = {
 }
 FIXED = {
     "good": "the threshold of motion graphs: larger seams show",
-    "widest_turn": "a stride that turns further is a turn on the spot; users set `limit`",
-    "step_share": "a step turns by half of what a stride does, or a little more",
+    "largest_rotation": "a stride that turns further is a turn on the spot; users set `limit`",
+    "step_fraction": "a step turns by half of what a stride does, or a little more",
     "speed_width": "a third of the difference between a slow and a brisk walk, or less",
-    "turns_from": "examples that vary less than their Gaussian is wide are alike",
+    "rotations_from": "examples that vary less than their Gaussian is wide are alike",
     "speeds_from": "examples that vary less than their Gaussian is wide are alike",
     "least_range": "a character of which less is left hardly obeys",
-    "told_range": "a tenth of a range is not missed",
+    "reported_loss": "a tenth of a range is not missed",
     "position_rounds": "an iteration that ends by itself; `settled` says when",
     "settled": "far below the centimetre by which a hand may miss its target",
 }

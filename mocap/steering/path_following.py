@@ -46,10 +46,10 @@ def follow_path(
     the walk cuts the corner, and a warning reports the position.
 
     Because seams have a price, other walks can be nearer to the path. The search of the paper,
-    `follow_as_2002`, uses two to three times as many seams, and is nearer to 23 of the 40 lines of
+    `follow_as_2002`, uses two to three times as many seams, and is nearer to 8 of the 15 lines of
     `figures/BENCHMARK.md`, mostly by a centimetre. If seams are also free here, with `Settings(seam=0,
-    match=0, width=200, tries=1)`, the search of the paper is nearer to only 4 of the 20 lines of
-    `figures/following.md`. The warning about a walk that leaves its path mentions that search.
+    match=0, width=200, tries=1)`, it is nearer to 4 of them, two with clips that never turn. The warning
+    about a walk that leaves its path mentions that search.
 
     With `bend`, any walk can follow any path. The search prices the rotation of a walk beyond that of its
     clips instead of its distance from the path. Then the walk is bent onto the path by path editing [Gle01],

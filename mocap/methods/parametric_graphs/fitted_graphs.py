@@ -41,7 +41,7 @@ def fit_strides(
     clips: Sequence[Motion],
     *,
     feet: Sequence[str] = ("lr", "rl"),
-    limit: float = TUNED.widest_turn,
+    limit: float = TUNED.largest_rotation,
     good: float = TUNED.good,
 ) -> nx.DiGraph:
     """Build a parametric graph of strides or steps from clips as they are.
@@ -88,9 +88,9 @@ def _turn_spaces(cut: Mapping[str, Examples], limit: float) -> dict[str, Space]:
     """Return a space of turns for each kind, or none if the examples of a kind hardly turn."""
     spaces = {}
     for kind, examples in cut.items():
-        share = 1.0 if kind == STRIDE else TUNED.step_share
-        width = TUNED.turn_width * share
-        if len(examples) < 2 or np.ptp(examples.values[:, 0]) < TUNED.turns_from * width:
+        share = 1.0 if kind == STRIDE else TUNED.step_fraction
+        width = TUNED.rotation_width * share
+        if len(examples) < 2 or np.ptp(examples.values[:, 0]) < TUNED.rotations_from * width:
             return {}
         spaces[kind] = make_space(examples, width, -limit * share, limit * share)
     return spaces
@@ -294,7 +294,7 @@ def _within(space: Space, limits: Range) -> Space:
     """Return a space with a narrower range, and warn if it lost more than a tenth."""
     low, high = limits
     full = space.high - space.low
-    if ((high - low) < (1 - TUNED.told_range) * full).any():
+    if ((high - low) < (1 - TUNED.reported_loss) * full).any():
         texts = []
         for name, start, stop in zip(space.parameters, low, high, strict=True):
             texts.append(f"{name} {parameter_text(name, start)} to {parameter_text(name, stop)}")

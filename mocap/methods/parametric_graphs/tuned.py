@@ -41,15 +41,15 @@ class Tuned:
     worst: float = 1.5  # times `good`: the largest T_GOOD of slow motions
     pose_change: float = 1 / 15  # seconds. T_GOOD may be as large as a pose changes in them
     beyond_worst: float = 1.25  # times the largest T_GOOD, if that keeps more of a range
-    widest_turn: float = math.radians(75)  # of a stride, to either side
-    step_share: float = 0.55  # a step turns by a little more than half of what a stride does
-    turn_width: float = math.radians(14)  # of the Gaussian in the turn of a stride
+    largest_rotation: float = math.radians(75)  # of a stride, to either side
+    step_fraction: float = 0.55  # a step turns by a little more than half of what a stride does
+    rotation_width: float = math.radians(14)  # of the Gaussian in the turn of a stride
     speed_width: float = 0.1  # m/s, of the Gaussian in the speed
-    turns_from: float = 1.5  # widths. Examples that vary less in their turns do not turn
+    rotations_from: float = 1.5  # widths. Examples that vary less in their turns do not turn
     speeds_from: float = 1.5  # widths. Examples that vary less in their speeds have one speed
     most_range: float = 2 / 3  # of a range: if less is left, a somewhat larger T_GOOD is tried
     least_range: float = 0.25  # of a range must be left
-    told_range: float = 0.1  # of a range may be lost without a warning
+    reported_loss: float = 0.1  # of a range may be lost without a warning
     fitting: tuple[int, int] = (50, 200)  # number of sources and of targets that narrow the ranges
 
     # A position that is asked for
