@@ -3,7 +3,7 @@
 `live.js` computes the same numbers, and draws them.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from typing import Any
 
 import numpy as np
@@ -168,7 +168,7 @@ def eight_nodes(step: int) -> dict[str, Any]:
     return {"costs": costs, "best": best, "walk": events[-1].walk, "message": message}
 
 
-def _successors() -> dict[int, list[int]]:
+def _successors() -> dict[Hashable, list[Hashable]]:
     """Return the successors of the eight nodes."""
     graph = graphs.notes_example()
     return {node: sorted(graph.successors(node)) for node in sorted(graph)}

@@ -133,7 +133,7 @@ def build_site(
         shutil.copytree(notebooks / "teaching", Path(folder, "teaching"), ignore=PRIVATE)
         texts = [page.relative_to(folder).as_posix() for page in sorted(Path(folder).rglob("*.md"))]
         toc = {"course": "\n".join(titles), "pages": "\n".join(texts)}
-        toc |= {"package": "\n".join(_write_reference(Path(folder))), "count": len(files)}
+        toc |= {"package": "\n".join(_write_reference(Path(folder))), "count": str(len(files))}
         toc |= {"groups": _groups(cards), "picture": picture_address(address)}
         first = Template((HERE / "index.md").read_text("utf-8"))
         write_file(Path(folder, "index.md"), first.substitute(toc))
@@ -296,7 +296,7 @@ def _live(name: str, page: str, address: str) -> str:
     """Write the controls and the data of an experiment for `live.js`, which replaces its still picture."""
     experiment = LIVE[name]
     alt = ALT.search(page)
-    content = {"controls": experiment.controls, "data": experiment.data()}
+    content: dict[str, Any] = {"controls": experiment.controls, "data": experiment.data()}
     content["alt"] = html.unescape(alt[1]) if alt else ""
     data = f'<script type="application/json">{script_json(content)}</script>'
     return f'<div class="live" data-live="{name}" id="{address}">{page}{data}</div>'
