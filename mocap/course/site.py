@@ -124,7 +124,7 @@ def build_site(
             _share(notebook, out)
             notebook.cells.insert(1, nbformat.v4.new_markdown_cell(ABOVE, id="note"))
             if file.stem in terms:
-                entries = "\n".join(f"```{{index}} single: ! {term}\n```" for term in terms[file.stem])
+                entries = "\n".join(f"```{{index}} ! {term}\n```" for term in terms[file.stem])
                 index = nbformat.v4.new_markdown_cell(entries, id="index")
                 notebook.cells.insert(1, index)
             write_file(Path(folder, file.name), nbformat.writes(notebook))
@@ -132,8 +132,8 @@ def build_site(
             shutil.copy(page, folder)
         shutil.copytree(notebooks / "teaching", Path(folder, "teaching"), ignore=PRIVATE)
         texts = [page.relative_to(folder).as_posix() for page in sorted(Path(folder).rglob("*.md"))]
-        toc: dict[str, object] = {"course": "\n".join(titles), "pages": "\n".join(texts)}
-        toc |= {"package": "\n".join(_write_reference(Path(folder))), "count": len(files)}
+        toc = {"course": "\n".join(titles), "pages": "\n".join(texts)}
+        toc |= {"package": "\n".join(_write_reference(Path(folder))), "count": str(len(files))}
         toc |= {"groups": _groups(cards), "picture": picture_address(address)}
         first = Template((HERE / "index.md").read_text("utf-8"))
         write_file(Path(folder, "index.md"), first.substitute(toc))
@@ -159,10 +159,20 @@ def picture_address(address: str) -> str:
 
 
 def _terms(glossary: Path) -> dict[str, list[str]]:
-    """Return the terms of the glossary by the notebook that teaches them."""
-    terms: dict[str, list[str]] = {}
+    """Return the terms of the glossary by the notebook that teaches them.
+
+    The common beginning of several terms is a term of the first of their notebooks.
+    """
     text = glossary.read_text("utf-8") if glossary.exists() else ""
-    for term, notebook in TERM.findall(text):
+    taught = dict(TERM.findall(text))
+    beginnings: dict[str, list[str]] = {}
+    for term, notebook in taught.items():
+        beginning = " ".join(term.split()[:-1])
+        if " " in beginning:
+            beginnings.setdefault(beginning, []).append(notebook)
+    shared = {beginning: min(stems) for beginning, stems in beginnings.items() if len(stems) > 1}
+    terms: dict[str, list[str]] = {}
+    for term, notebook in (shared | taught).items():
         terms.setdefault(notebook, []).append(term)
     return terms
 

@@ -112,7 +112,7 @@ def test_each_page_says_what_is_live_and_how_to_run_it(site):
         assert 'pip install ".[notebooks]"' in note and "mocap lab" in note
         assert len(re.findall(r"[.] ", note)) == 1
     text = (site / "00-quickstart.html").read_text("utf-8")
-    assert "answer you on these pages; code and other controls are still." in text
+    assert "answer you on these pages; code and some controls are still." in text
     assert live.STILL == STILL
     stills = [part[:200] for part in re.split('<div class="mocap-still"[^>]*>', text)[1:]]
     assert stills
