@@ -18,6 +18,7 @@ from mocap.course import marking
 from mocap.course.handout import WHEEL, hand_out
 from mocap.course.notebooks import run as run_notebook
 from mocap.course.opening import build_lite, open_course, stored
+from mocap.course.student_wheel import NotInstallable
 from mocap.errors import MocapError
 
 Points = Annotated[Path | None, "a .toml file of lines EXERCISE = POINTS (default: 1 each)"]
@@ -59,7 +60,12 @@ def handout(
             "--wheel puts the package into the folder, --from names an address: give one of them."
         )
     origin = WHEEL if wheel else from_
-    print(f"wrote {len(hand_out(notebooks, out, origin, worth, nbgrader=nbgrader))} notebooks to {out}")
+    try:
+        copies = hand_out(notebooks, out, origin, worth, nbgrader=nbgrader)
+    except NotInstallable as error:
+        remedy = "add --wheel, which puts the package into the handout, or correct --from"
+        raise MocapError(f"{error.obstacle}: {remedy}.") from error
+    print(f"wrote {len(copies)} notebooks to {out}")
 
 
 def site(*, out: Path = Path("mocap-site"), moving: Moving = False, address: str = "") -> None:

@@ -34,6 +34,21 @@ TRYING = 120  # seconds for pip to find a package
 SHOWN = 60  # characters of an address in an error
 
 
+class NotInstallable(MocapError):
+    """The package cannot be installed from the place that a handout would name.
+
+    Attributes
+    ----------
+    obstacle : what cannot be installed, without a remedy.
+    """
+
+    def __init__(self, obstacle: str) -> None:
+        self.obstacle = obstacle
+        super().__init__(
+            f"{obstacle}: hand out with origin='wheel', which puts the package beside the notebooks."
+        )
+
+
 def students_wheel(without_solutions: Callable[[Path], str]) -> tuple[str, bytes]:
     """Put the package together as a wheel for students.
 
@@ -52,9 +67,7 @@ def students_wheel(without_solutions: Callable[[Path], str]) -> tuple[str, bytes
     try:
         installed = distribution(NAME)
     except PackageNotFoundError as error:
-        raise MocapError(
-            "A wheel needs the package's metadata: install it with pip, as in 'pip install -e .'."
-        ) from error
+        raise MocapError("A wheel needs the package's metadata: install it with pip.") from error
     stem = f"{NAME.replace('-', '_')}-{installed.version}"
     info = f"{stem}.dist-info"
     files = dict(_package_files()) | dict(_notebook_files(without_solutions))
@@ -134,20 +147,15 @@ def requirement_from(address: str) -> str:
     --------
     >>> requirement_from("here")
     Traceback (most recent call last):
-    mocap.errors.MocapError: 'here' is no address: --from takes one such as git+https://HOST/OWNER/mocap.
+    mocap.errors.MocapError: 'here' is no address: one is such as git+https://HOST/OWNER/mocap.
     """
     if address and (":" not in address or '"' in address):
         raise MocapError(
-            f"'{shortened(address, SHOWN)}' is no address: --from takes one such as git+https://HOST/OWNER/mocap."
+            f"'{shortened(address, SHOWN)}' is no address: one is such as git+https://HOST/OWNER/mocap."
         )
     needed = f"{NAME}[{EXTRA}] @ {address}" if address else f"{NAME}[{EXTRA}]=={distribution(NAME).version}"
     if not _is_installable(needed):
-        remedy = "add --wheel, which puts the package into the handout"
-        if address:
-            remedy += ", or correct the address"
-        else:
-            remedy += ", or --from ADDRESS"
-        raise MocapError(f"pip cannot install '{shortened(needed, SHOWN)}' on this machine: {remedy}.")
+        raise NotInstallable(f"pip cannot install '{shortened(needed, SHOWN)}' on this machine")
     return needed
 
 

@@ -115,8 +115,8 @@ def test_a_name_or_an_address_that_cannot_be_installed_is_refused_and_one_that_c
     wheel, tmp_path, monkeypatch
 ):
     monkeypatch.setenv("PIP_NO_INDEX", "1")
-    refused("cannot install 'motion-graphs.*add --wheel.*or --from ADDRESS", requirement_from, "")
-    refused("add --wheel.*or correct the address", requirement_from, f"file://{tmp_path}/nothing.whl")
+    refused("cannot install 'motion-graphs.*: hand out with origin='wheel'", requirement_from, "")
+    refused("cannot install .* on this machine", requirement_from, f"file://{tmp_path}/nothing.whl")
     refused("is no address", requirement_from, 'https://"')
     address = wheel.as_uri()
     assert requirement_from(address) == f"motion-graphs[notebooks] @ {address}"
@@ -128,3 +128,9 @@ def test_nothing_is_written_if_the_package_cannot_be_installed(tmp_path, monkeyp
     monkeypatch.setenv("PIP_NO_INDEX", "1")
     refused("cannot install", hand_out, [stored() / FIRST], tmp_path / "out")
     assert not (tmp_path / "out").exists()
+
+
+def test_the_command_names_the_options_that_help(tmp_path, monkeypatch, run):
+    monkeypatch.setenv("PIP_NO_INDEX", "1")
+    said = run(f"course handout {stored() / FIRST} -o {tmp_path / 'out'}", 2).err
+    assert "on this machine: add --wheel, which puts the package into the handout, or correct --from." in said

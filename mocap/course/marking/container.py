@@ -72,7 +72,7 @@ def _engine() -> str:
         if _run([engine, "info"]).returncode == 0:
             return engine
     reason = f"{' and '.join(installed)} do not answer" if installed else "neither podman nor docker is here"
-    raise MocapError(f"--container needs a container engine, but {reason}: install or start one.")
+    raise MocapError(f"Marking in a container needs an engine, but {reason}: install or start one.")
 
 
 def _build(engine: str) -> None:
@@ -116,7 +116,7 @@ def _named(places: Mapping[str, Path | None]) -> list[tuple[str, Path]]:
 def _mount(place: Path, inside: str, access: str) -> list[str]:
     """Return the option that mounts a place."""
     if "," in f"{place}":
-        raise MocapError(f"--container cannot mount {place}: choose a path without a comma.")
+        raise MocapError(f"A container cannot mount {place}: choose a path without a comma.")
     return ["--mount", f"type=bind,source={place},target={inside}{access}"]
 
 
