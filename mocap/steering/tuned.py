@@ -41,9 +41,7 @@ class Tuned:
     standing_seconds: float = 0.4  # seconds that a clip must stand to be a start or an end, half a step
     starting_seconds: float = 0.5  # seconds before the end of a standing stretch in which walks start
     standing_nodes: int = 3  # frames between the nodes of a standing stretch, a tenth of a second at 30 Hz
-    standing_seam: float = (
-        0.06  # metres RMS of a seam between standing stretches, if none of the graph is worse
-    )
+    standing_seam: float = 0.06  # metres RMS of a seam between standing stretches, or the graph's worst
     clearances: tuple[float, float] = (0.7, 0.4)  # metres from the root to a disc. 0.4 is half a walking body
     settled_seconds: float = 0.2  # seconds of standing before a walk has arrived: the last step still sways
     arrival: float = 1.0  # metres from the end within which a standing walk has arrived. 0.6 misses stops
