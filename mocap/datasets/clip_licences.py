@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from mocap.datasets.clip_origins import LONGEST_LICENCE, NOWHERE, Origin
+from mocap.datasets.clip_origins import LONGEST_LICENCE, Origin
 from mocap.errors import MocapError, shortened
 
 COLUMNS = ("clip", "licence")
@@ -88,10 +88,9 @@ def with_licences(
         licence = stated if isinstance(stated, str) else stated.get(name, "")
         if len(licence) > LONGEST_LICENCE:
             raise MocapError(f"A licence has at most {LONGEST_LICENCE} characters, got {len(licence)}.")
-        known = (
-            known_licence(origin.path) if origin.path != NOWHERE else ""
-        )  # reads: name: of known data sets
-        chosen.append(origin._replace(licence=licence or known))
+        if not licence and origin.path.is_file():
+            licence = known_licence(origin.path)
+        chosen.append(origin._replace(licence=licence))
     return chosen
 
 
