@@ -25,11 +25,13 @@ from _walks import PATHS, compiled, followed, graph_of, measures
 from mocap.body import SHAPES, GroundPath, circle, resample, s_curve
 from mocap.editing import LIMIT
 from mocap.errors import NoWalk
+from mocap.files import DirectedPoint, Direction
 from mocap.quality import spread
 from mocap.steering import (
     Controller,
     RootTurner,
     Waypoint,
+    direct,
     follow_path,
     judge_control,
     through_waypoints,
@@ -40,6 +42,13 @@ from mocap.steering import (
 NARROW = (s_curve(2.5), circle(0.8))
 SEVERAL = (*PATHS, s_curve(4.0), SHAPES["square"]())
 HARD = (circle(0.3), circle(0.5), circle(0.7), s_curve(2.0), *PATHS)
+STANDING_UP = [DirectedPoint(0, 0), DirectedPoint(0, 4, wait=1.0), DirectedPoint(3, 6)]
+AHEAD = [DirectedPoint(0, 0), DirectedPoint(0, 6)]
+DIRECTIONS = (
+    Direction(STANDING_UP, "stand", "stand", facing=0.0),
+    Direction(AHEAD, "stand", "stand", around=[(0.1, 3, 0.6)]),
+    Direction(AHEAD, "stand", "stand", facing=0.4),
+)
 PACES = (0.6, 0.4, 0.3, 0.2)  # times the pace of clips that stand, and walk at 1.3 m/s
 STANDING = Collection("clips that stand and walk", ("stop_and_go", "walk_straight"))
 CROSSING = (GroundPath([[0, 0], [0, 6]]), GroundPath([[3, 3], [-3, 3]]))
@@ -133,6 +142,21 @@ def commanded(clips: Clips) -> Row:
     }
 
 
+def directed(clips: Clips) -> Row:
+    """Follow directions that start, wait and end standing, one of them around a disc."""
+    graph = graph_of(clips).source
+    walks = []
+    for direction in DIRECTIONS:
+        try:
+            walks.append(direct(graph, direction))
+        except NoWalk:
+            continue
+    corrected = [part for walk in walks for part in walk.corrections]
+    row: Row = {"found": len(walks)}
+    row |= {"spread, cm": 100 * max((part.metres for part in corrected), default=0.0)}
+    return row | {"spread, °": float(np.degrees(max((abs(part.radians) for part in corrected), default=0.0)))}
+
+
 # reads: statement: a table
 TRIALS = {
     "route_spacing": Trial(search, (0.2, 0.005, 0.01, 0.05)),
@@ -162,6 +186,15 @@ TRIALS = {
     "rotation_price": Trial(commanded, (0.0, 0.1, 0.6)),
     "turned_seam": Trial(commanded, (1.0, 6.0)),
     "pace_price": Trial(commanded, (0.0, 3.0, 12.0)),
+    "standing_seconds": Trial(directed, (0.2, 0.6)),
+    "starting_seconds": Trial(directed, (0.2, 1.0)),
+    "standing_nodes": Trial(directed, (1, 6)),
+    "standing_seam": Trial(directed, (0.03, 0.1)),
+    "clearances": Trial(directed, ((0.4, 0.4), (1.0, 0.4))),
+    "settled_seconds": Trial(directed, (0.0, 0.4)),
+    "arrival": Trial(directed, (0.3, 0.6, 2.0)),
+    "overshoot": Trial(directed, (0.5, 3.0)),
+    "turned_from": Trial(directed, (0.2, 1.0)),
 }
 FIXED = {"walking_speed": "an error tells which clips walk; no search reads it"}
 STUDY = Study(tuned, TRIALS, FIXED, (STOP_AND_GO, CAPTURED_WALKS))

@@ -88,8 +88,9 @@ def with_licences(
         licence = stated if isinstance(stated, str) else stated.get(name, "")
         if len(licence) > LONGEST_LICENCE:
             raise MocapError(f"A licence has at most {LONGEST_LICENCE} characters, got {len(licence)}.")
-        known = known_licence(origin.path) if origin.path else ""  # reads: name: of known data sets
-        chosen.append(origin._replace(licence=licence or known))
+        if not licence and origin.path.is_file():
+            licence = known_licence(origin.path)
+        chosen.append(origin._replace(licence=licence))
     return chosen
 
 

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 AXES = (None, "y", "z", "-y", "-z", "x", "-x")  # that may point up in a file
 ROOT_OFFSETS = (None, "add", "ignore")
 OPTIONAL = ("mirrored", "up", "root_offset", "licence")  # parts of a text that may be missing
+NOWHERE = Path()
 LONGEST_LICENCE = 200  # characters
 
 
@@ -20,10 +21,10 @@ class Origin(NamedTuple):
 
     If `mirrored`, the clip is the mirror image of the motion in the file. `labels` are rows (start, stop,
     label) as of `files.label_tables`, which replace the labels of the file; `licence` is that of the clip, ""
-    if it is unknown. A clip that a file carries has no path.
+    if it is unknown. A clip that a file carries has the path `NOWHERE`.
     """
 
-    path: Path | None
+    path: Path
     skeleton: Path | None = None
     scale: float | None = None
     mirrored: bool = False
@@ -41,7 +42,7 @@ class Origin(NamedTuple):
         '{"path": ["../clips/walk.bvh", "/.../clips/walk.bvh"], "skeleton": [], "scale": 0.0254}'
         """
         skeleton = _places(self.skeleton, folder) if self.skeleton else []
-        places = _places(self.path, folder) if self.path else []
+        places = [] if self.path == NOWHERE else _places(self.path, folder)
         scale = None if self.scale is None else float(self.scale)
         kept: dict[str, object] = {"path": places, "skeleton": skeleton, "scale": scale}
         if self.mirrored:
@@ -89,7 +90,7 @@ def stored_options(text: str) -> Origin:
     'CC0'
     """
     kept = json.loads(text)
-    return _with_options(Origin(None, None, kept["scale"]), kept)
+    return _with_options(Origin(NOWHERE, None, kept["scale"]), kept)
 
 
 def _with_options(origin: Origin, kept: dict[str, Any]) -> Origin:

@@ -18,7 +18,7 @@ from mocap._shared.progress import Progress
 from mocap._shared.records import NamedTuple
 from mocap.body.fingerprints import fingerprint
 from mocap.body.motion import Motion, require_compatible, resample
-from mocap.datasets.clip_origins import Origin, find_again, is_origin, stored_options
+from mocap.datasets.clip_origins import NOWHERE, Origin, find_again, is_origin, stored_options
 from mocap.datasets.samples import FPS, FRAMES_IN_0_1, SAMPLES, sample
 from mocap.editing.mirroring import mirror, mirrored_label
 from mocap.errors import MocapError, Remedy, shortened
@@ -208,7 +208,7 @@ def _same_content(clips: Sequence[Motion], references: ClipReferences, number: i
     """Find clips with the content of a reference under another name, or whose mirror image it is."""
     name = references.names[number]
     digest = references.fingerprints[number]
-    origin = stored_options(references.origins[number]) if references.origins else Origin(None)
+    origin = stored_options(references.origins[number]) if references.origins else Origin(NOWHERE)
     fitting: list[Motion] = []
     for clip in clips if digest else ():
         if abs(clip.duration * references.fps - references.frames[number]) > NEAR_FRAMES:

@@ -80,8 +80,8 @@ def unpack(arrays: Arrays, fps: float, names: Sequence[str], frames: Sequence[in
     >>> clip = sample("walk_straight")
     >>> packed = {key: np.asarray(array) for key, array in pack([clip]).items()}
     >>> [back] = unpack(packed, clip.fps, [clip.name], [len(clip)])
-    >>> packing_error([clip], [back]) < 1e-3, back.labels == clip.labels
-    (True, True)
+    >>> packing_error([clip], [back]) < 1e-3, list(back.labels)
+    (True, ['walk'])
     """
     tree = {"parents": arrays["parents"], "axes": arrays["axes"], "dofs": arrays["dofs"].tolist()}
     stops = np.cumsum(frames).tolist()

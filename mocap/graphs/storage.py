@@ -26,7 +26,7 @@ from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.datasets import clip_references, packed_clips
-from mocap.datasets.clip_origins import Origin, stored_options
+from mocap.datasets.clip_origins import NOWHERE, Origin, stored_options
 from mocap.datasets.clip_references import MOST_FRAMES, ClipReferences
 from mocap.errors import MocapError, Remedy, warn
 from mocap.files.load_save import require_path
@@ -102,7 +102,7 @@ def save(
     of_graph = {"window": motion_graph.window} | _arrays_of_graph(motion_graph.graph)
     if pack:
         clips = packed_clips.as_packed(motion_graph.clips)
-        named = [origin._replace(path=None, skeleton=None, labels=()) for origin in origins]
+        named = [origin._replace(path=NOWHERE, skeleton=None, labels=()) for origin in origins]
         arrays = clip_references.arrays_of_clips(clips, named, path) | packed_clips.pack(motion_graph.clips)
         write_archive(path, PACKED, arrays | of_graph)
     else:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property, partial
@@ -54,7 +54,7 @@ TURNED = np.radians(30)  # radians between a line and a heading at its end, beyo
 LATE = 0.3  # seconds, beyond which a delay is reported
 OFF = 0.1  # metres
 TILTED = np.radians(10)  # radians
-GOOD_OFF = 0.25  # metres
+GOOD_OFF = 0.35  # metres
 UNSEEN = np.radians(45)  # radians that steps may be turned in all before a warning
 UNSEEN_FRACTION = 0.1  # of the distance travelled by which steps may be longer or shorter before a warning
 CORRECTED = 0.01  # metres or radians: a larger correction moves feet, which are cleaned up
@@ -271,7 +271,7 @@ def direct(
     for leg in legs_of(direction):
         planner.add_leg(leg)
     directed = planner.directed()
-    if directed.entered > 0:
+    if direction.around and directed.entered > 0:
         depth = f"The nearest walk enters a disc by {100 * directed.entered:.0f} cm"
         raise NoWalk(f"{depth}: no clips turn as the way round it does; leave more room, or add such clips.")
     _warn_of_misses(directed)
@@ -369,9 +369,17 @@ class _Planner:
         elapsed = (self.frames + wait) / self.compiled.fps
         goal = self._goal(leg, turns[1], metres, elapsed)
         path = GroundPath(from_ground(line))
-        result = self._search(path, self._request(leg, metres, elapsed), goal, starts)
-        late = self._late(leg, result, metres, elapsed)
-        if leg.stands_first and -np.inf < late < -LATE / 2:
+        delays_of = partial(self._delays, leg, metres, elapsed)
+
+        def is_in_time(walk: Found) -> bool:  # a leg that starts standing can wait if it is early everywhere
+            delays = delays_of(walk) or [0.0]
+            wait = min(0.0, max(delays)) if leg.stands_first else 0.0
+            return max(abs(delay - wait) for delay in delays) < LATE
+
+        request = self._request(leg, metres, elapsed)
+        result = self._search(path, request, goal, starts, is_in_time)
+        late = max(delays_of(result), default=0.0)
+        if leg.stands_first and late < -LATE / 2:
             waits = self._longer_waits(waits, result, late)
         self._append_leg(leg, turns, waits, result, metres)
         self.stopped = self.stopped or result.stopped
@@ -435,15 +443,15 @@ class _Planner:
                 return {node: walk}
         return waits
 
-    def _late(self, leg: _Leg, result: Found, metres: Sequence[float], elapsed: float) -> float:
-        """Return the largest delay at the points of a leg, seconds, negative if it is always early."""
+    def _delays(self, leg: _Leg, metres: Sequence[float], elapsed: float, result: Found) -> list[float]:
+        """Return the delays at the points of a leg that ask for a time, seconds; negative ones are early."""
         fps = self.compiled.fps
         passed = np.searchsorted(result.along, [*metres[:-1], np.inf]) / fps + elapsed
-        delays = [-np.inf]
+        delays = []
         for second, point in zip(passed[1:].tolist(), leg.points[1:], strict=True):
             if point.t is not None:
                 delays.append(second - point.t)
-        return max(delays)
+        return delays
 
     def _count(self, walk: Sequence[Edge]) -> int:
         """Count the frames of a walk."""
@@ -521,8 +529,15 @@ class _Planner:
         settled = self.is_arriving & self.is_waiting
         return settled if settled.any() else self.is_waiting
 
-    def _search(self, path: GroundPath, request: PathRequest, goal: Goal, starts: States) -> Found:
-        """Search for a leg, twice if the first walk misses what is asked for."""
+    def _search(
+        self,
+        path: GroundPath,
+        request: PathRequest,
+        goal: Goal,
+        starts: States,
+        is_in_time: Callable[[Found], bool],
+    ) -> Found:
+        """Search for a leg, and again if the first walk misses what is asked for."""
         route = make_route(self.compiled, path, request)
         kind = partial(DirectedSearch, goal=goal)
         best: Found | None = None
@@ -533,17 +548,12 @@ class _Planner:
             except NoWalk as error:
                 problem = error
                 continue
-            if best is None or result.cost < best.cost:
+            is_good = self._is_good(result, goal, route) and is_in_time(result)
+            if best is None or is_good or result.cost < best.cost:
                 best = result
-            if result.stopped or self.deadline.is_over or self._is_good(result, goal, route):
+            if is_good or result.stopped or self.deadline.is_over:
                 break
-        if best is None:
-            if goal.must_stand:
-                lacks = "no walk along the line comes to stand at its end"
-                raise NoWalk(f"{lacks}: add clips that stop, or try a larger threshold.") from problem
-            assert problem is not None
-            raise problem
-        return best
+        return best or _refuse(goal, problem)
 
     def _efforts(self) -> Iterator[Settings]:
         """Yield the settings of each search: wider beams, then a lower price of delays."""
@@ -609,6 +619,15 @@ class _Planner:
         """Append edges to the walk."""
         self.edges += edges
         self.frames += self._count(edges)
+
+
+def _refuse(goal: Goal, problem: NoWalk | None) -> Found:
+    """Raise the error that no walk was found."""
+    if goal.must_stand:
+        lacks = "No walk along the line comes to stand at its end"
+        raise NoWalk(f"{lacks}: add clips that stop, or try a larger threshold.") from problem
+    assert problem is not None
+    raise problem
 
 
 def _warn_of_misses(directed: Directed) -> None:

@@ -8,6 +8,7 @@ end: at any node, or at one in which the body stands.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -20,6 +21,8 @@ from mocap.steering.path_objective import Route, Settings
 from mocap.steering.path_search import PathSearch
 from mocap.steering.tuned import TUNED
 
+Sums = dict[tuple[bytes, float, float], tuple[Array, Array]]
+_SUMS: WeakKeyDictionary[CompiledGraph, Sums] = WeakKeyDictionary()
 ENTERED_PRICE = 1e4  # m² for each frame in a disc, more than all other prices of a walk together
 UNREACHED = 100.0  # metres or m², for nodes from which no way leads to an end
 MARGIN = 0.1  # metres around a disc that count as inside, because a correction may move the walk later
@@ -47,7 +50,7 @@ class Prices:
     """
 
     position: float = 30.0
-    facing: float = 10.0
+    facing: float = 300.0
     heading: float = 0.3
     near: float = 0.3  # reads: name: public, and users give it as a keyword
     arrival: float = 20.0
@@ -97,11 +100,19 @@ class DirectedSearch(PathSearch):
         super().__init__(graph, route, starts, settings)
         self.goal = goal
         self.first = max(self.first, len(starts.node))  # the starts differ in the pose only
-        lengths = self.macro_edges.along
-        prices = self.macro_edges.cost
-        # The least distance (metres) and the least price of seams (m²) from each node to where it may end.
-        self.to_end = least_sums(graph, lengths, goal.allowed) if goal.must_stand else np.zeros(0)
-        self.price_to_end = least_sums(graph, prices, goal.allowed) if goal.must_stand else np.zeros(0)
+        if goal.must_stand:
+            # The least distance (metres) and price of seams (m²) from each node to where a walk may end.
+            self.to_end, self.price_to_end = self._estimates()
+
+    def _estimates(self) -> tuple[Array, Array]:
+        """Return the least sums to the ends, which are the same in each search with these prices of seams."""
+        known_sums = _SUMS.setdefault(self.graph, {})
+        key = (self.goal.allowed.tobytes(), self.settings.seam, self.settings.match)
+        if key not in known_sums:
+            values = (self.macro_edges.along, self.macro_edges.cost)
+            lengths, prices = (least_sums(self.graph, value, self.goal.allowed) for value in values)
+            known_sums[key] = (lengths, prices)
+        return known_sums[key]
 
     def macro_edge_costs(self, states: States, chosen: Indices, macro_edge: Indices) -> Array:
         """Add the prices of headings along the route and of discs to those of a path."""

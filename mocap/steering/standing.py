@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from functools import cached_property
 from itertools import pairwise
 
+import networkx as nx
 import numpy as np
 
 from mocap._shared.arrays import Array, Mask, runs
@@ -108,6 +109,8 @@ def with_standing(graph: MotionGraph) -> StandingGraph:
     without any node in the graph are left out,
     because no transition leads to them. Frames with the label "stand" are those that stand, in clips that
     have any such frame; else the pace decides, as in `quality.propose_labels`.
+
+    Notebook: 08b-steering
     """
     used = {clip for clip, _ in graph.graph}
     stretches = []
@@ -143,7 +146,7 @@ def standing_stretches(clip: Motion) -> list[tuple[int, int]]:
     return [(start, stop) for start, stop in runs(mark).tolist() if stop - start >= shortest]
 
 
-def _insert(graph, motion: Motion, clip: int, added: set[Node]) -> None:  # noqa: ANN001
+def _insert(graph: nx.MultiDiGraph, motion: Motion, clip: int, added: set[Node]) -> None:
     """Insert nodes into the stretches of a clip, and join those outside to the nearest nodes."""
     present = sorted(node for node in graph if node[0] == clip)
     frames = {frame for number, frame in added if number == clip}
@@ -161,7 +164,12 @@ def _insert(graph, motion: Motion, clip: int, added: set[Node]) -> None:  # noqa
             graph.add_edge(start, end, kind="clip", frames=end[1] - start[1], labels=labels)
 
 
-def _join(graph, source: MotionGraph, stretches: Sequence[tuple[int, int, int]], added: set[Node]) -> None:  # noqa: ANN001
+def _join(
+    graph: nx.MultiDiGraph,
+    source: MotionGraph,
+    stretches: Sequence[tuple[int, int, int]],
+    added: set[Node],
+) -> None:
     """Add transitions from the end of each standing stretch to the start of each that fits."""
     window = source.window
     leave = [(clip, stop - window) for clip, start, stop in stretches if stop - start >= window]

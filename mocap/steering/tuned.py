@@ -43,15 +43,15 @@ class Tuned:
     pace_price: float = 6.0  # factor of the price of a wrong pace, which is stretched. At 0 fast clips jolt
 
     # Directions
-    standing_seconds: float = 0.4  # seconds that a clip must stand to be a start or an end. 0.2 to 0.6 agree
-    starting_seconds: float = 0.5  # of a standing stretch, its end, in which walks start. 0.3 to 1 agree
-    standing_nodes: int = 3  # frames between the nodes of a standing stretch. 1 is as good, and slower
-    standing_seam: float = 0.06  # metres RMS of a seam between two standing stretches. At 0.03 few can wait
+    standing_seconds: float = 0.4  # seconds that a clip must stand to be a start or an end, half a step
+    starting_seconds: float = 0.5  # seconds before the end of a standing stretch in which walks start
+    standing_nodes: int = 3  # frames between the nodes of a standing stretch, a tenth of a second at 30 Hz
+    standing_seam: float = 0.06  # metres RMS of a seam between standing stretches, or the graph's worst
     clearances: tuple[float, float] = (0.7, 0.4)  # metres from the root to a disc. 0.4 is half a walking body
-    settled_seconds: float = 0.2  # of standing before a walk has arrived. At 0 bodies drift as they wait
-    arrival: float = 1.0  # metres from the end within which a standing walk has arrived. 0.5 finds fewer
+    settled_seconds: float = 0.2  # seconds of standing before a walk has arrived: the last step still sways
+    arrival: float = 1.0  # metres from the end within which a standing walk has arrived. 0.6 misses stops
     overshoot: float = 1.5  # metres that a walk may go on beyond the end before it must stand
-    turned_from: float = 0.52  # radians, 30°, between a line and a heading. Less is left to the search
+    turned_from: float = 0.52  # radians, 30°, beyond which a body is rotated at the ends of a line
 
     # Waypoints and crowds
     waits: tuple[float, ...] = (0.0, 1.0, 2.0, 4.0)  # seconds before a start, in this order. Most need none
