@@ -18,7 +18,7 @@ RECORD = ".course.json"  # in the copy: the version of the course, and the noteb
 EARLIER = "earlier"  # the folder for notebooks that were given anew
 UNKNOWN = ""  # in the record: the notebook of a copy that an earlier version made
 MINE = "my_graph.py"  # beside the notebooks: the functions that passed their checks
-WAY = 8  # the number of the last notebook of the way that has a part of the program
+LAST_OF_PROGRAM = 8  # the number of the last notebook of the way that has a part of the program
 
 
 def record_copy(folder: Path, copy: Path, version: str) -> str:
@@ -143,7 +143,7 @@ def _exercises() -> dict[str, list[str]]:
     """Return the exercises of the way by their notebooks."""
     by_notebook: dict[str, list[str]] = {}
     for name, check in all_checks().items():
-        if check.notebook.isdigit() and int(check.notebook) <= WAY:
+        if check.notebook.isdigit() and int(check.notebook) <= LAST_OF_PROGRAM:
             by_notebook.setdefault(check.notebook, []).append(name)
     return by_notebook
 
