@@ -145,7 +145,7 @@ def load_references(
     by_name = defaultdict[str, list[Motion]](list)
     for clip in needed:
         by_name[clip.name].append(clip)
-    chosen = []
+    chosen: list[Motion] = []
     rows = zip(references.names, references.frames, references.fingerprints, strict=True)
     for name, length, digest in rows:
         fitting = [clip for clip in by_name[name] if _is_same(clip, length, digest)]

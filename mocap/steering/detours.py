@@ -108,7 +108,7 @@ def _relaxed(line: Points, discs: Sequence[Disc], fixed: Points) -> Points:
             distance = np.maximum(np.abs(offset), 1e-9)
             moved = np.where(distance < radius, centre + offset * (radius / distance), moved)
         band = np.where(stays, band, moved)
-    return band
+    return np.asarray(band)
 
 
 def _first_overlap(polygons: Sequence[Points]) -> tuple[int, int] | None:
@@ -133,7 +133,7 @@ def _led_around(line: Points, polygon: Points) -> Points:
     """Replace the part of a line inside a convex polygon by the shorter part of its border."""
     edges = np.roll(polygon, -1) - polygon
     offsets = (line[None] - polygon[:, None]) * edges.conj()[:, None]
-    inside = (offsets.imag > 0).all(axis=0)
+    inside = np.asarray((offsets.imag > 0).all(axis=0))
     if not inside.any():
         return line
     if inside[0] or inside[-1]:

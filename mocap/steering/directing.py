@@ -18,7 +18,7 @@ from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import from_ground, on_ground
 from mocap.editing.bending import LIMIT
-from mocap.editing.edits import clean_feet
+from mocap.editing.foot_cleaning import clean_feet
 from mocap.editing.toes import lowest_heights
 from mocap.errors import MocapError, NoWalk, warn
 from mocap.files.directions import DirectedPoint, Direction

@@ -58,4 +58,5 @@ def fraction_kept(walk: Sequence[Edge], changed: Sequence[Edge], motion_graph: M
     edges = motion_graph.graph.edges
     kept = set(changed)
     frames = [(edge in kept, edges[edge]["frames"]) for edge in walk]
-    return sum(count for is_kept, count in frames if is_kept) / sum(count for _, count in frames)
+    frames_kept = sum(count for is_kept, count in frames if is_kept)
+    return float(frames_kept / sum(count for _, count in frames))

@@ -131,7 +131,8 @@ class FilmedScene:
         height = max(SMALLEST_TEXT, size[1] // TEXT_LINES)
         font = ImageFont.load_default(size=height)
         for number, character in enumerate(self.scene["characters"]):
-            colour = tuple(round(255 * value) for value in self.body_colours(number, time)[0])
+            red, green, blue = np.asarray(self.body_colours(number, time)[0], float)
+            colour = (round(255 * red), round(255 * green), round(255 * blue))
             pen.text((height, (0.7 + 1.4 * number) * height), character["name"][:60], fill=colour, font=font)
         return np.asarray(image)
 
