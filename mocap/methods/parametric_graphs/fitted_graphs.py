@@ -161,7 +161,7 @@ def fit_parametric(
     >>> graph = fit_parametric({"walk": make_space(strides, 0.4, -0.8, 0.8)}, [("walk", "walk")])
     >>> edge = graph.edges["walk", "walk"]["edge"]
     >>> round(edge.smallest_good, 3), graph.nodes["walk"]["space"].high.round(2)
-    (0.016, array([0.8]))
+    (0.027, array([0.8]))
 
     Notebook: 17-parametric-graphs
     """
