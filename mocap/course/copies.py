@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from mocap._shared.atomic import write_file
-from mocap.course.checks import all_checks
 from mocap.course.notebooks import library, notebooks_in, read, tagged
-from mocap.errors import MocapError, shortened
+from mocap.errors import MocapError, Remedy, shortened
 
 RECORD = ".course.json"  # in the copy: the version of the course, and the notebooks as they were copied
 EARLIER = "earlier"  # the folder for notebooks that were given anew
@@ -103,7 +102,8 @@ def notebook_file(folder: Path, number: str) -> Path:
     for file in notebooks_in(folder):
         if file.name.partition("-")[0] == number:
             return file
-    raise MocapError(f"There is no notebook {shortened(repr(number), 40)}; --reset takes one such as 03.")
+    problem = f"There is no notebook {shortened(repr(number), 40)}."
+    raise MocapError(problem, remedy=Remedy("give {} the number of one, such as 03", "reset"))
 
 
 def without_checks(notebook: Any) -> None:  # noqa: ANN401
@@ -141,6 +141,8 @@ def progress(file: Path | None) -> str:
 
 def _exercises() -> dict[str, list[str]]:
     """Return the exercises of the way by their notebooks."""
+    from mocap.course.checks import all_checks  # the help needs no NumPy
+
     by_notebook: dict[str, list[str]] = {}
     for name, check in all_checks().items():
         if check.notebook.isdigit() and int(check.notebook) <= LAST_OF_PROGRAM:

@@ -6,6 +6,7 @@
 from collections.abc import Callable, Hashable
 from typing import Any
 
+import networkx as nx
 import numpy as np
 
 from mocap import graphs, plain
@@ -134,7 +135,7 @@ def tarjan(step: int) -> dict[str, Any]:
     >>> tarjan(step=0)["message"], tarjan(step=0)["stack"]
     ('enter 1', [1, -1, -1, -1, -1, -1, -1, -1])
     """
-    states = diagrams.tarjan_states(_successors())
+    states = diagrams.tarjan_states(_successors(graphs.notes_example()))
     state = states[min(int(step), len(states) - 1)]
     component = {node: number for number, part in enumerate(state.components) for node in part}
     state_of_nodes: dict[str, Any] = {"message": state.message, "node": state.node}
@@ -157,7 +158,7 @@ def eight_nodes(step: int) -> dict[str, Any]:
     >>> eight_nodes(step=1)["message"]
     '6 (0.0): expanded'
     """
-    events = search_events(edge_lengths(graphs.notes_example()), START, GOAL, LONGEST)[: int(step)]
+    events = search_events(edge_lengths(_graph_of_search()), START, GOAL, LONGEST)[: int(step)]
     complete = [event for event in events if event.fate == "complete"]
     best = min(complete, key=lambda event: event.cost).walk if complete else ()
     costs = [event.cost for event in events]
@@ -168,18 +169,32 @@ def eight_nodes(step: int) -> dict[str, Any]:
     return {"costs": costs, "best": best, "walk": events[-1].walk, "message": message}
 
 
-def _successors() -> dict[Hashable, list[Hashable]]:
-    """Return the successors of the eight nodes."""
+def _graph_of_search() -> nx.MultiDiGraph:
+    """Return the eight nodes with one more arrow, by which the search finds a first walk and a better one."""
     graph = graphs.notes_example()
+    graph.add_edge(7, 3)
+    return graph
+
+
+def _successors(graph: nx.MultiDiGraph) -> dict[Hashable, list[Hashable]]:
+    """Return the successors of each node, in order."""
     return {node: sorted(graph.successors(node)) for node in sorted(graph)}
 
 
-def _eight_nodes_data() -> dict[str, Any]:
-    """Return the places and the successors of the eight nodes, with the lengths of the edges."""
-    lengths = edge_lengths(graphs.notes_example())
+def _data_of(graph: nx.MultiDiGraph) -> dict[str, Any]:
+    """Return the places and the successors of eight nodes, with the lengths of the edges."""
+    lengths = edge_lengths(graph)
     places = [[float(value) for value in EIGHT_PLACES[node]] for node in NODES]
     rows = [[[child, length] for child, length in lengths[node].items()] for node in NODES]
-    return {"places": places, "successors": list(_successors().values()), "lengths": rows}
+    return {"places": places, "successors": list(_successors(graph).values()), "lengths": rows}
+
+
+def _data_of_tarjan() -> dict[str, Any]:
+    return _data_of(graphs.notes_example())
+
+
+def _data_of_search() -> dict[str, Any]:
+    return _data_of(_graph_of_search())
 
 
 def _leg_lengths() -> tuple[float, float]:
@@ -217,13 +232,13 @@ FRACTION = (0, 1, 0.05, 0.25)
 AHEAD = (-0.5, 0.7, 0.05, 0.2)  # metres
 HEIGHT = (0, 0.5, 0.05, 0.25)  # metres
 STEPS_OF_TARJAN = (0, 21, 1, 9)
-STEPS_OF_SEARCH = (0, 13, 1, 11)
+STEPS_OF_SEARCH = (0, 21, 1, 18)
 LEAN = LiveExperiment({"tip": TIP, "towards": TOWARDS, "facing": FACING}, lean, _body)
 GIMBALS = LiveExperiment({"z": QUARTER, "x": QUARTER, "y": OTHER_QUARTER}, gimbals, _body)
 WAYS = LiveExperiment({"fraction": FRACTION}, interpolations, _ways_data)
 LEG = LiveExperiment({"ahead": AHEAD, "height": HEIGHT}, leg, _leg_data)
-TARJAN = LiveExperiment({"step": STEPS_OF_TARJAN}, tarjan, _eight_nodes_data)
-EIGHT = LiveExperiment({"step": STEPS_OF_SEARCH}, eight_nodes, _eight_nodes_data)
+TARJAN = LiveExperiment({"step": STEPS_OF_TARJAN}, tarjan, _data_of_tarjan)
+EIGHT = LiveExperiment({"step": STEPS_OF_SEARCH}, eight_nodes, _data_of_search)
 LIVE = {"03b-angles:lean": LEAN, "03b-angles:gimbals": GIMBALS, "04-blending:ways": WAYS, "04b-feet:leg": LEG}
 LIVE |= {"06-pruning:tarjan": TARJAN, "07-walks-and-search:eight_nodes": EIGHT}
 """The experiments, by the notebook and the name of the experiment in it."""

@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator
-from typing import Any
-
-from mocap._shared.records import NamedTuple
+from typing import Any, NamedTuple
 
 MARKS = {"design": "**Design task.**", "prediction": "**Predict.**", "discussion": "**Discuss.**"}
 """What stands before a question that is answered in words, by the kind of the answer."""

@@ -7,13 +7,12 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property, partial
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Indices, Mask, Points
 from mocap._shared.deadlines import Deadline
-from mocap._shared.records import dataclass
+from mocap._shared.records import NamedTuple, dataclass
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import from_ground, on_ground

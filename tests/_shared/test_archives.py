@@ -131,7 +131,7 @@ def test_an_amass_archive_is_for_another_loader(tmp_path, name):
     refused("got an .npz of another kind$", function(LOADERS[name]), tmp_path / "a.npz", kind=FormatError)
 
 
-@pytest.mark.parametrize("name", KINDS)
+@pytest.mark.parametrize("name", [*KINDS, storage.PACKED.name])
 def test_a_file_that_is_no_motion_names_its_loader(tmp_path, name):
     path = tmp_path / "a.npz"
     pack(path, {"format": np.array(f"mocap: {name}"), "version": np.array(1)})
@@ -147,5 +147,5 @@ def function(loader):
 
 
 def test_every_kind_has_a_loader():
-    assert {*KINDS, AMASS, MOTION} == set(LOADERS)
+    assert {*KINDS, storage.PACKED.name, AMASS, MOTION} == set(LOADERS)
     assert all(map(callable, map(function, LOADERS.values())))

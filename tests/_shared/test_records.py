@@ -20,6 +20,7 @@ WALK = mocap.resample(datasets.sample("walk_straight"), 30)
 
 # Records of the package that hold a few numbers and words each, and print as the standard library does.
 SHORT_RECORDS = {
+    "Answer",
     "Block",
     "Deprecation",
     "Format",

@@ -160,7 +160,8 @@ def test_lab_opens_the_first_notebook_and_leaves_ctrl_c_to_jupyterlab(monkeypatc
 
 
 PAGE = (Path(__file__).parents[2] / "notebooks" / "COMMANDS.md").read_text("utf-8")
-SLOW = ("pytest", "pip", "demo", "lab", "data", "course")  # tested elsewhere, or not a command of ours
+# Tested elsewhere, or no command of ours.
+SLOW = ("pytest", "pip", "demo", "lab", "data", "course", "--end stand", "--without", "--layout")
 
 
 def commands():

@@ -271,7 +271,7 @@ def test_a_copy_knows_what_has_changed_since(tmp_path, monkeypatch):
     assert cells[0].source == "# Transforms, told anew" and MY_UNDO in [cell.source for cell in cells]
     assert MY_UNDO in [cell.source for cell in nbformat.read(copy / "earlier" / file.name, 4).cells]
     assert "changes" not in opening.news(copy)
-    refused("There is no notebook '3'; --reset takes one such as 03", opening.news, copy, "3")
+    refused("There is no notebook '3': give reset= the number of one, such as 03", opening.news, copy, "3")
 
 
 def test_progress_counts_what_is_kept_and_names_what_is_next(tmp_path):

@@ -73,8 +73,6 @@ def fit_strides(
     >>> space = graph.nodes["lrl"]["space"]
     >>> space.parameters, space.low.round(1).tolist(), space.high.round(1).tolist(), list(graph.edges)
     (('turn',), [-0.8], [0.8], [('lrl', 'lrl')])
-
-    Notebook: 17-parametric-graphs
     """
     cut = {kind: cut_strides(clips, feet=kind, margin=None) for kind in feet}
     spaces = _turn_spaces(cut, limit) or _speed_spaces(cut)
@@ -137,8 +135,8 @@ def fit_parametric(
     ----------
     spaces, edges, sampling : as for `build_parametric`.
     good : the smallest T_GOOD, metres.
-    worst : the largest T_GOOD, metres, by default `pose_change` of the examples, but at least 1.5 `good`. If
-        more than a third of a range would be lost, it is 1.25 times as large.
+    worst : the largest T_GOOD, metres, by default the largest change of the examples' poses in 1/15 s, but at
+        least 1.5 `good`. If more than a third of a range would be lost, it is 1.25 times as large.
 
     Returns
     -------
@@ -162,8 +160,6 @@ def fit_parametric(
     >>> edge = graph.edges["walk", "walk"]["edge"]
     >>> round(edge.smallest_good, 3), graph.nodes["walk"]["space"].high.round(2)
     (0.027, array([0.8]))
-
-    Notebook: 17-parametric-graphs
     """
     if worst is None:
         changes = [pose_change(space.examples) for space in spaces.values()]
