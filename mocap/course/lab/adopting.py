@@ -143,8 +143,8 @@ def compare(draw: Callable[[Tools], Any], *names: str) -> dict[str, Any]:
 
     Examples
     --------
-    >>> compare(lambda by: by.hamilton([0, 1, 0, 0], [0, 0, 1, 0]).tolist(), "hamilton")
-    {"the package's": [0.0, 0.0, 0.0, 1.0]}
+    >>> compare(lambda by: "a picture", "local_fit")
+    {"the package's": 'a picture'}
 
     Notebooks: 00-quickstart to 07-walks-and-search
     """
