@@ -134,7 +134,10 @@ class Player {
   // The view of a first scene.
   openView() {
     this.follow.checked = this.scene.follow;
-    if (this.scene.yaw !== undefined) this.camera.home = this.camera.yaw = this.scene.yaw;
+    if (this.scene.yaw !== undefined) {
+      this.camera.yaw = this.scene.yaw;
+      this.camera.home = this.scene.yaw;
+    }
     if (this.scene.drawable) this.drawing = true;
   }
 
