@@ -202,5 +202,5 @@ def test_the_wheel_alone_makes_a_walk_and_runs_a_notebook(archives, tmp_path):
     python = env / "bin" / "python"
     call(env / "bin" / "mocap", "demo", "--seconds", "2", folder=empty)
     assert {path.name for path in (empty / "mocap-demo").iterdir()} >= {"walk.bvh", "walk.gif", "walk.html"}
-    call(env / "bin" / "mocap", "course", "handout", "-o", "course", folder=empty)
+    call(env / "bin" / "mocap", "course", "handout", "--wheel", "-o", "course", folder=empty)
     call(python, "-c", DEMO, folder=empty)
