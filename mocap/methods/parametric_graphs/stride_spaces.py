@@ -76,7 +76,7 @@ def measure_mixes(strides: Examples, weights: Array) -> Array:
 
 
 def make_space(strides: Examples, width: float, low: float, high: float, *, parameter: str = "turn") -> Space:
-    """Build a space of turns or speeds: sample mixes over a range, and measure them [KG04; HG07, nodes].
+    """Build a space of turns or speeds: sample mixes over a range, measure them [KG04], for [HG07, nodes].
 
     The turn of a mix with Gaussian weights differs from its target by 4° on average. Weights that are
     interpolated between the measured samples (`methods.match_webs.weights_for`) meet a target to 0.01°.
