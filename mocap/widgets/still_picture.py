@@ -98,7 +98,10 @@ def still_picture(scene: dict[str, Any], *, legend: bool = True, letters: float 
     whole = _camera(film, [body for row in rows for body in row], yaw, len(rows))
     drawn = [_draw_row(film, row, whole) for row in rows]
     picture = Image.fromarray(np.concatenate(drawn))
-    size = max(LETTERS / min(SLIDE[0] / picture.width, SLIDE[1] / picture.height), letters)
+    size = max(_letters_on_slide(picture.width, picture.height), letters)
+    if legend:  # it makes the picture higher, and thus smaller on a slide
+        lines = _draw_legend(_entries(film, rows, whole), picture.width, _font(size))
+        size = max(_letters_on_slide(picture.width, picture.height + lines.height), letters)
     font = _font(size)
     _write_names(picture, film, rows, whole, font)
     if legend:
@@ -108,6 +111,11 @@ def still_picture(scene: dict[str, Any], *, legend: bool = True, letters: float 
         paper.paste(picture, (0, entries.height))
         picture = paper
     return few_colours(picture, size, Image.Quantize.FASTOCTREE)
+
+
+def _letters_on_slide(width: int, height: int) -> float:
+    """Return the size of letters, pixels, that can be read if a picture is as large as fits on a slide."""
+    return LETTERS / min(SLIDE[0] / width, SLIDE[1] / height)
 
 
 def walks_on_ground(film: FilmedScene) -> bool:
