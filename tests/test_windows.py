@@ -92,7 +92,7 @@ WORKS = {
     "loop": "straight.bvh -o looped.bvh",
     "inbetween": "straight.bvh --gap 1s-1.2s -o filled.bvh",
     "find": "a.bvh:10-40 a.bvh b.bvh -o found",
-    "label": "a.bvh -o labels.csv",
+    "label": "straight.bvh -o labels.csv",
     "crowd": "--members 2 --through points.csv --no-film -o crowd",
     "retarget": "straight.bvh --to straight.bvh -o worn",
     "data list": "--kind walk",

@@ -71,7 +71,7 @@ CARD = (
     '<a class="card" href="{page}.html"><img src="{picture}" alt="" loading="lazy">'
     "<b>{number}</b> <span>{title}</span></a>"
 )
-WEBP_QUALITY = 78  # of 100: shaded bodies show no blocks
+WEBP_QUALITY = 72  # of 100: shaded bodies show no blocks
 CARD_SIZE = (360, 240)  # pixels that a picture of a card fits in
 REFERENCE = "{0}\n{1}\n\n.. automodule:: {0}\n   :members:\n   :imported-members:\n"
 

@@ -2,7 +2,6 @@
 
 import ctypes
 import errno
-import fcntl
 import os
 import platform
 import signal
@@ -18,6 +17,7 @@ import pytest
 from mocap.course.marking import walls
 from mocap.course.marking.sealed import protection
 
+fcntl = pytest.importorskip("fcntl", reason="only Linux has these walls")
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="only Linux has these walls")
 OURS = os.getpid()
 FIOSETOWN = 0x8901  # <asm-generic/sockios.h>
