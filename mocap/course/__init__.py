@@ -24,13 +24,15 @@ Reading order
 15. `handout`: copies without solutions
 16. `formulas`: formulas as MathML
 17. `recording`: positions of an experiment, as pictures for pages without Python
-18. `live_experiments`: small experiments that run on pages without Python
-19. `site`: the course as HTML pages, beside the reference pages of the package
-20. `conf`: how Sphinx makes these pages
-21. `diagrams`: ideas drawn step by step
-22. `lab`: what students wrote is used, and what they thought is kept
-23. `marking`: marks for notebooks handed in, whose code runs sealed
-24. `teaching`: slides and films that are made from the notebooks
+18. `live_bodies`: small experiments on rotations and bodies, computed as on pages without Python
+19. `live_walks`: small experiments on graphs and walks, computed alike
+20. `live_experiments`: the table of these experiments, with their controls
+21. `site`: the course as HTML pages, beside the reference pages of the package
+22. `conf`: how Sphinx makes these pages
+23. `diagrams`: ideas drawn step by step
+24. `lab`: what students wrote is used, and what they thought is kept
+25. `marking`: marks for notebooks handed in, whose code runs sealed
+26. `teaching`: slides and films that are made from the notebooks
 
 References
 ----------

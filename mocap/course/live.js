@@ -21,6 +21,7 @@
   const BALL = 120; // radius of a ball, in these units
   const WAYS = ["slerp", "quaternions on a line", "Euler angles"];
   const COLOURS = [BLUE, ORANGE, GREEN];
+  const YELLOW = "#f0c04a";
 
   // ---- rotations, quaternions (w, x, y, z) ----
 
@@ -69,6 +70,17 @@
    */
   const fromEuler = ([z, x, y]) =>
     times(times(about([0, 0, 1], z), about([1, 0, 0], x)), about([0, 1, 0], y));
+
+  /** @type {Record<string, Vector>} */
+  const AXES = { X: [1, 0, 0], Y: [0, 1, 0], Z: [0, 0, 1] };
+
+  /**
+   * The rotation by the same angle about each of three axes, the last of `order` first.
+   * @param {string} order such as ZXY
+   * @param {number} angle radians
+   */
+  const inOrder = (order, angle) =>
+    [...order].map((axis) => about(AXES[axis], angle)).reduce((product, turn) => times(product, turn));
 
   /**
    * Spherical linear interpolation, along the shorter arc.
@@ -238,10 +250,204 @@
     });
   }
 
+  // ---- points and polylines ----
+
+  /**
+   * The map of points that turns them about the y axis.
+   * @param {number} angle radians
+   * @returns {(point: Vector) => Vector}
+   */
+  function turnedBy(angle) {
+    const [cosine, sine] = [Math.cos(angle), Math.sin(angle)];
+    return ([x, y, z]) => [cosine * x + sine * z, y, cosine * z - sine * x];
+  }
+
+  /**
+   * @param {Vector[]} points
+   * @param {number} axis
+   */
+  const mean = (points, axis) => points.reduce((sum, point) => sum + point[axis], 0) / points.length;
+
+  /**
+   * @param {Vector} p
+   * @param {Vector} q
+   */
+  const apart = (p, q) => Math.hypot(...p.map((value, c) => value - q[c]));
+
+  /** @param {Vector[]} points of a polyline */
+  const lengthOf = (points) => points.slice(1).reduce((sum, point, k) => sum + apart(point, points[k]), 0);
+
+  /**
+   * The point of a polyline at an arc length.
+   * @param {Vector[]} points
+   * @param {number} along
+   */
+  function pointAt(points, along) {
+    let left = along;
+    for (let k = 1; k < points.length; k++) {
+      const far = apart(points[k], points[k - 1]);
+      if (left <= far) {
+        return points[k].map((value, c) => points[k - 1][c] + (left / far) * (value - points[k - 1][c]));
+      }
+      left -= far;
+    }
+    return points[points.length - 1];
+  }
+
+  /**
+   * @param {Vector[]} points
+   * @param {Vector} place
+   */
+  const nearestOf = (points, place) =>
+    points.reduce((best, point) => (apart(point, place) < apart(best, place) ? point : best));
+
   // ---- the experiments ----
 
   /** @type {Record<string, Live>} */
   const EXPERIMENTS = {
+    "01-skeletons-and-clips:placed": {
+      compute({ joint }, { root, rotations, offsets, parents, names }) {
+        /** @type {Vector[]} */
+        const places = [root];
+        const world = [rotations[0]];
+        for (let j = 1; j <= joint; j++) {
+          const parent = parents[j];
+          world.push(times(world[parent], rotations[j]));
+          places.push(rotated(world[parent], offsets[j]).map((value, c) => value + places[parent][c]));
+        }
+        const parent = parents[joint];
+        const whose = joint ? `its parent is ${parent}, ${names[parent]}` : "it has no parent";
+        return { places, message: `joint ${joint}, ${names[joint]}: ${whose}` };
+      },
+      draw(sheet, { places, message, values }, data) {
+        const { compute } = EXPERIMENTS["01-skeletons-and-clips:placed"];
+        const all = compute({ joint: data.parents.length - 1 }, data).places;
+        /** @param {Vector} place */
+        const put = ([, y, z]) => [320 + 165 * (z - data.root[2]), 312 - 165 * y];
+        const bones = (
+          /** @type {Vector[]} */ some,
+          /** @type {string} */ colour,
+          /** @type {number} */ width,
+        ) =>
+          some.forEach((place, j) => {
+            if (j) sheet.line([put(all[data.parents[j]]), put(place)], colour, width);
+          });
+        bones(all, GREY, 1);
+        bones(places, BLUE, 5);
+        for (const place of places) sheet.dot(put(place), 4, BLUE);
+        const joint = values.joint;
+        if (joint) sheet.line([put(all[data.parents[joint]]), put(all[joint])], ORANGE, 6);
+        sheet.dot(put(all[joint]), 8, ORANGE);
+        sheet.say(message, ORANGE);
+      },
+    },
+    "01b-motion-files:wrong_order": {
+      compute({ angle }, { orders }) {
+        const [right, ...wrong] = orders.map((/** @type {string} */ order) => inOrder(order, radians(angle)));
+        const errors = wrong.map((/** @type {Vector} */ q) => degrees(angleBetween(right, q)));
+        return { worst: Math.max(...errors), best: Math.min(...errors) };
+      },
+      draw(sheet, { worst, best, values }, data) {
+        const put = sheet.axes([90, 50, 480, 230], [0, 60, 0, 100], ["each angle (°)", "error (°)"]);
+        const { compute } = EXPERIMENTS["01b-motion-files:wrong_order"];
+        const from = values.angle;
+        const angles = Array.from({ length: 61 - from }, (_, k) => from + k);
+        const errors = angles.map((angle) => compute({ angle }, data));
+        ["worst", "best"].forEach((name, k) => {
+          sheet.line(
+            angles.map((angle, n) => put(angle, errors[n][name])),
+            COLOURS[k],
+            3,
+          );
+          const error = [worst, best][k];
+          sheet.dot(put(from, error), 6, COLOURS[k]);
+          sheet.say(`the ${name} wrong order: off by ${error.toFixed(1)}°`, COLOURS[k]);
+        });
+      },
+    },
+    "02-matching:turn": {
+      compute({ degrees: angle }, { first, second }) {
+        const turned = second.flat().map(turnedBy(radians(angle)));
+        const points = first.flat();
+        const shift = [0, 2].map((c) => mean(points, c) - mean(turned, c));
+        const squares = points.map((/** @type {Vector} */ [x, y, z], /** @type {number} */ n) => {
+          const [u, v, w] = turned[n];
+          return (x - u - shift[0]) ** 2 + (y - v) ** 2 + (z - w - shift[1]) ** 2;
+        });
+        const sum = squares.reduce((/** @type {number} */ a, /** @type {number} */ b) => a + b, 0);
+        return { shift, distance: 100 * Math.sqrt(sum / squares.length) };
+      },
+      draw(sheet, { shift, distance, values }, { first, second, bones }) {
+        const turn = turnedBy(radians(values.degrees));
+        const laid = second.map((/** @type {Vector[]} */ pose) =>
+          pose.map(turn).map(([x, y, z]) => [x + shift[0], y, z + shift[1]]),
+        );
+        const [x, z] = [0, 2].map((c) => mean(first.flat(), c));
+        /** @param {Vector} place seen from above, x to the left */
+        const put = (place) => [160 - 240 * (place[0] - x), 170 - 240 * (place[2] - z)];
+        const middle = first.length >> 1;
+        first[middle].forEach((/** @type {Vector} */ place, /** @type {number} */ j) =>
+          sheet.line([put(place), put(laid[middle][j])], GREY, 1),
+        );
+        [first, laid].forEach((poses, k) => {
+          for (const pair of bones) {
+            sheet.line(
+              pair.map((/** @type {number} */ j) => put(poses[middle][j])),
+              COLOURS[k],
+              4,
+            );
+          }
+        });
+        const axes = sheet.axes([380, 60, 230, 220], [-180, 180, 0, 60], ["θ (°)", "RMS distance (cm)"]);
+        const { compute } = EXPERIMENTS["02-matching:turn"];
+        const angles = Array.from({ length: 61 }, (_, k) => 6 * k - 180);
+        sheet.line(
+          angles.map((angle) => axes(angle, compute({ degrees: angle }, { first, second }).distance)),
+          GREEN,
+          3,
+        );
+        sheet.dot(axes(values.degrees, distance), 7, GREEN);
+        sheet.say("the first window", BLUE);
+        sheet.say("the second one, turned and shifted", ORANGE);
+        sheet.say(`${values.degrees}°: ${distance.toFixed(1)} cm RMS`.replace("-", "−"), GREEN);
+      },
+    },
+    "08c-judging-a-search:distances": {
+      compute({ step }, { path, walk, moments }) {
+        const [length, far] = [lengthOf(walk), lengthOf(path)];
+        const count = Math.round(100 * far);
+        const fine = Array.from({ length: count + 1 }, (_, k) => pointAt(path, (k * far) / count));
+        const along = Array.from({ length: step + 1 }, (_, k) => (k * length) / (moments - 1));
+        const here = along.map((s) => pointAt(walk, s));
+        const equal = along.map((s) => pointAt(path, s));
+        const nearest = here.map((point) => nearestOf(fine, point));
+        const off = [equal, nearest].map((points) => points.map((point, k) => 100 * apart(point, here[k])));
+        return { here, equal, distances: off, nearest, along };
+      },
+      draw(sheet, { here, equal, distances, nearest, along }, { path, walk }) {
+        /** @param {Vector} place from above, x to the left */
+        const put = ([x, z]) => [300 - 78 * x, 300 - 78 * z];
+        sheet.line(path.map(put), GREY, 8);
+        sheet.line(walk.map(put), sheet.ink, 3);
+        [equal, nearest].forEach((points, k) =>
+          points.forEach((/** @type {Vector} */ point, /** @type {number} */ n) => {
+            sheet.line([put(here[n]), put(point)], COLOURS[k], 2);
+            sheet.dot(put(point), 4, COLOURS[k]);
+          }),
+        );
+        for (const place of here) sheet.dot(put(place), 6, sheet.ink);
+        const length = Math.round(10 * lengthOf(walk)) / 10;
+        const axes = sheet.axes([400, 60, 200, 220], [0, length, 0, 110], ["m walked", "distance (cm)"]);
+        ["at equal arc length", "to the nearest point"].forEach((name, k) => {
+          const curve = along.map((/** @type {number} */ s, /** @type {number} */ n) =>
+            axes(s, distances[k][n]),
+          );
+          sheet.line(curve, COLOURS[k], 3);
+          for (const point of curve) sheet.dot(point, 4, COLOURS[k]);
+          sheet.say(`${name}: ${distances[k].at(-1).toFixed(0)} cm`, COLOURS[k]);
+        });
+      },
+    },
     "03b-angles:lean": {
       compute({ tip, towards, facing }) {
         const axis = rotated(about([0, 1, 0], radians(towards)), [1, 0, 0]);
@@ -412,7 +618,7 @@
           const part = components[n];
           const [x, y] = put(data.places[n]);
           const onStack = stack.includes(n + 1);
-          const plain = onStack ? "#f0c04a" : "#fff";
+          const plain = onStack ? YELLOW : "#fff";
           sheet.dot([x, y], 17, n + 1 === node ? ORANGE : "#222");
           sheet.dot([x, y], 14, part < 0 ? plain : PARTS[part]);
           sheet.text(String(n + 1), [x, y + 5], "center", part < 0 ? "#222" : "#fff");
@@ -420,7 +626,7 @@
         });
         sheet.say(`step ${values.step}: ${message}`);
         const waiting = stack.filter((/** @type {number} */ other) => other >= 0);
-        sheet.say(waiting.length ? `stack: ${waiting.join(" ")}` : "the stack is empty", "#f0c04a");
+        sheet.say(waiting.length ? `stack: ${waiting.join(" ")}` : "the stack is empty", YELLOW);
         sheet.say("beside a node: its number / its low link");
       },
     },
@@ -449,7 +655,7 @@
         data.places.forEach((/** @type {Vector} */ place, /** @type {number} */ n) => {
           const [x, y] = put(place);
           sheet.dot([x, y], 17, "#222");
-          sheet.dot([x, y], 14, [6, 2].includes(n + 1) ? "#f0c04a" : "#fff");
+          sheet.dot([x, y], 14, [6, 2].includes(n + 1) ? YELLOW : "#fff");
           sheet.text(String(n + 1), [x, y + 5], "center", "#222");
         });
         sheet.say(`step ${values.step}: ${message}`);

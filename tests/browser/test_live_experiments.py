@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mocap.body import rotations
-from mocap.course import live_experiments
+from mocap.course import live_bodies, live_experiments
 from mocap.course.live_experiments import LIVE, numbers_of
 from mocap.course.opening import stored
 from tests.browser.conftest import PHONE, watched_page
@@ -78,15 +78,17 @@ def test_controls_are_those_of_the_notebook(name):
     for control, (low, high, step, initial) in LIVE[name].controls.items():
         shown = [f"{control}=({low}", f"{control}=({float(low)}"]
         assert any(text in source for text in shown), control
-        assert any(text in source for text in (f"{high}", "len(states) - 1", "len(events)"))
+        assert any(
+            text in source for text in (f"{high}", "len(states) - 1", "len(events)", "len(skeleton) - 1")
+        )
         assert f"{step}" in source
         assert f"{control}={initial}" in source
 
 
 def test_a_leg_reaches_as_the_notebooks_does():
-    found = live_experiments.leg(ahead=0.2, height=0.25)
-    thigh, shank = (live_experiments._leg_data()[name] for name in ("thigh", "shank"))
-    hip = np.array([0, live_experiments.HIP])
+    found = live_bodies.leg(ahead=0.2, height=0.25)
+    thigh, shank = (live_bodies.leg_data()[name] for name in ("thigh", "shank"))
+    hip = np.array([0, live_bodies.HIP])
     assert np.linalg.norm(found["knee"] - hip) == pytest.approx(thigh)
     assert np.linalg.norm(found["ankle"] - found["knee"]) == pytest.approx(shank)
     assert found["ankle"] == pytest.approx([0.2, 0.25])
@@ -125,7 +127,8 @@ def test_sliders_move_the_drawings(browser, site, screen):
             canvas = place.locator("canvas")
             for number in range(sliders.count()):
                 before = canvas.evaluate(DRAWN)
-                sliders.nth(number).press("ArrowRight")
+                is_last = sliders.nth(number).evaluate("(slider) => slider.value === slider.max")
+                sliders.nth(number).press("ArrowLeft" if is_last else "ArrowRight")
                 assert canvas.evaluate(DRAWN) != before
             assert sliders.first.bounding_box()["height"] >= 44
             assert page.evaluate("document.documentElement.scrollWidth") <= screen["viewport"]["width"]
