@@ -26,6 +26,7 @@ def right_turn_free(points: Array) -> Array:
 
 
 def mistake_from_origin(points: Array) -> object:
+    """Join heights and horizontal distances from the origin, not from the window's middle."""
     heights = points[..., 1]
     ground = points[..., [0, 2]]
     radii = np.linalg.norm(ground, axis=-1)
@@ -33,6 +34,7 @@ def mistake_from_origin(points: Array) -> object:
 
 
 def mistake_middle_of_each_frame(points: Array) -> object:
+    """Join heights and distances, in each frame, from the middle of this frame."""
     heights = points[..., 1]
     ground = points[..., [0, 2]]
     radii = np.linalg.norm(ground - ground.mean(axis=1, keepdims=True), axis=-1)
@@ -40,13 +42,15 @@ def mistake_middle_of_each_frame(points: Array) -> object:
 
 
 def mistake_no_weight(points: Array) -> object:
+    """Join heights and distances from the window's middle, without a weight."""
     heights = points[..., 1]
     ground = points[..., [0, 2]]
     radii = np.linalg.norm(ground - ground.mean(axis=(0, 1)), axis=-1)
-    return np.concatenate([heights.ravel(), radii.ravel()]) / 1
+    return np.concatenate([heights.ravel(), radii.ravel()])
 
 
 def mistake_weight_of_squares(points: Array) -> object:
+    """Join heights and distances from the window's middle, over the number of points, not its root."""
     heights = points[..., 1]
     ground = points[..., [0, 2]]
     radii = np.linalg.norm(ground - ground.mean(axis=(0, 1)), axis=-1)
@@ -54,6 +58,7 @@ def mistake_weight_of_squares(points: Array) -> object:
 
 
 def mistake_squared_radii(points: Array) -> object:
+    """Join heights and squared distances from the window's middle."""
     heights = points[..., 1]
     ground = points[..., [0, 2]]
     radii = np.linalg.norm(ground - ground.mean(axis=(0, 1)), axis=-1)
@@ -61,6 +66,7 @@ def mistake_squared_radii(points: Array) -> object:
 
 
 def mistake_coordinates_for_radii(points: Array) -> object:
+    """Join heights and the coordinates x and z relative to the window's middle."""
     heights = points[..., 1]
     ground = points[..., [0, 2]]
     radii = ground - ground.mean(axis=(0, 1))
@@ -68,6 +74,7 @@ def mistake_coordinates_for_radii(points: Array) -> object:
 
 
 def mistake_radii_with_height(points: Array) -> object:
+    """Join heights and distances in space from the centroid of the window, height included."""
     heights = points[..., 1]
     ground = points
     radii = np.linalg.norm(ground - ground.mean(axis=(0, 1)), axis=-1)
@@ -90,26 +97,31 @@ def right_worth_a_look(rows: Array, reach: float) -> set[tuple[int, ...]]:
 
 
 def mistake_pairs_twice(rows: Array, reach: float) -> object:
+    """Return the pairs of different rows within the distance, in both orders."""
     is_near = squareform(pdist(rows)) <= reach
     return {*map(tuple, np.argwhere(is_near & ~np.eye(len(rows), dtype=bool)))}
 
 
 def mistake_pairs_with_itself(rows: Array, reach: float) -> object:
+    """Return the pairs within the distance, and each row paired with itself."""
     is_near = squareform(pdist(rows)) <= reach
     return {*map(tuple, np.argwhere(np.triu(is_near)))}
 
 
 def mistake_too_far(rows: Array, reach: float) -> object:
+    """Return the pairs of rows beyond the distance."""
     is_near = squareform(pdist(rows)) > reach
     return {*map(tuple, np.argwhere(np.triu(is_near, 1)))}
 
 
 def mistake_root_of_reach(rows: Array, reach: float) -> object:
+    """Return the pairs whose squared distance is at most `reach`."""
     is_near = squareform(pdist(rows)) <= np.sqrt(reach)
     return {*map(tuple, np.argwhere(np.triu(is_near, 1)))}
 
 
 def mistake_city_block(rows: Array, reach: float) -> object:
+    """Return the pairs whose city-block distance, Σ |x_i - y_i|, is at most `reach`."""
     is_near = squareform(pdist(rows, "cityblock")) <= reach
     return {*map(tuple, np.argwhere(np.triu(is_near, 1)))}
 
@@ -131,24 +143,30 @@ def right_bounds_by_direction(difference: Array, axes: Array) -> Array:
 
 
 def mistake_sums_of_lengths(difference: Array, axes: Array) -> object:
+    """Return the cumulative sums of the absolute components, Σ |c_i|."""
     return np.cumsum(np.abs(difference @ axes))
 
 
 def mistake_squares_of_lengths(difference: Array, axes: Array) -> object:
+    """Return the squared lengths of the projections, Σ c_i² over more and more directions."""
     return np.cumsum((difference @ axes) ** 2)
 
 
 def mistake_single_components(difference: Array, axes: Array) -> object:
+    """Return the absolute component |c_i| along each direction."""
     return np.abs(difference @ axes)
 
 
 def mistake_last_direction_first(difference: Array, axes: Array) -> object:
+    """Return the lengths of the projections on the last direction, on the last two, and so on."""
     return np.sqrt(np.cumsum((difference @ axes[:, ::-1]) ** 2))
 
 
 def mistake_not_projected(difference: Array, axes: Array) -> object:
+    """Return the lengths of the vector cut to its first coordinate, to its first two, and so on."""
     return np.sqrt(np.cumsum(difference[: axes.shape[1]] ** 2))
 
 
 def mistake_all_directions(difference: Array, axes: Array) -> object:
+    """Return one number, the length of the projection on all directions."""
     return np.linalg.norm(difference @ axes)

@@ -53,26 +53,32 @@ def same_turn_between(answer: Any, wanted: float) -> bool:  # noqa: ANN401
 
 
 def mistake_not_wrapped(a: float, b: float) -> object:
+    """Return b - a, between -2π and 2π."""
     return b - a
 
 
 def mistake_from_b_to_a(a: float, b: float) -> object:
+    """Return a - b, wrapped to half a turn."""
     return (a - b + np.pi) % TURN - np.pi
 
 
 def mistake_never_negative(a: float, b: float) -> object:
+    """Return b - a, wrapped to 0 … 2π."""
     return (b - a) % TURN
 
 
 def mistake_size_alone(a: float, b: float) -> object:
+    """Return the absolute value of the wrapped difference."""
     return abs(right_turn_between(a, b))
 
 
 def mistake_size_by_arccos(a: float, b: float) -> object:
+    """Return arccos(cos(b - a)): also the absolute value, but inaccurate near 0 and π."""
     return np.arccos(np.clip(np.cos(b - a), -1, 1))
 
 
 def mistake_half_turns_dropped(a: float, b: float) -> object:
+    """Return b - a, wrapped to 0 … π by half turns."""
     return (b - a) % np.pi
 
 
@@ -95,22 +101,27 @@ def right_nearest_twin(previous: Array, angles: Array) -> Array:
 
 
 def mistake_no_twin(previous: Array, angles: Array) -> object:
+    """Return the given angles, with the whole turns that bring each nearest to the previous one."""
     return unwrapped(previous, angles)
 
 
 def mistake_always_twin(previous: Array, angles: Array) -> object:
+    """Return the twin, with whole turns, even if the given angles are nearer."""
     return unwrapped(previous, twin(angles))
 
 
 def mistake_no_whole_turns(previous: Array, angles: Array) -> object:
+    """Return the nearer of the given angles and their twin, both without whole turns."""
     return nearest_to(previous, angles, twin(angles))
 
 
 def mistake_middle_angle_added(previous: Array, angles: Array) -> object:
+    """Return the nearer of two candidates, the second (a + π, b + π, c + π) instead of the twin."""
     return nearest_to(previous, unwrapped(previous, angles), unwrapped(previous, angles + np.pi))
 
 
 def mistake_angles_before(previous: Array, angles: Array) -> object:
+    """Return the angles of the previous frame."""
     return np.asarray(previous)
 
 
@@ -136,6 +147,7 @@ def right_chain(parts: list[Slice]) -> Array:
 
 
 def mistake_frame_repeated(parts: list[Slice]) -> object:
+    """Start each slice at the last position of the slice before, which then occurs twice."""
     moves = [np.zeros(2)]
     for (previous, _, end), (clip, start, _) in pairwise(parts):
         moves.append(previous[end - 1] - clip[start])
@@ -144,10 +156,12 @@ def mistake_frame_repeated(parts: list[Slice]) -> object:
 
 
 def mistake_not_moved(parts: list[Slice]) -> object:
+    """Join the slices at the positions that their clips store."""
     return np.concatenate([clip[start:stop] for clip, start, stop in parts])
 
 
 def mistake_moves_not_added(parts: list[Slice]) -> object:
+    """Start each slice where the clip before stores its frame `stop`, not where that was moved to."""
     moves = [np.zeros(2)]
     for (previous, _, end), (clip, start, _) in pairwise(parts):
         moves.append(previous[end] - clip[start])
@@ -156,6 +170,7 @@ def mistake_moves_not_added(parts: list[Slice]) -> object:
 
 
 def mistake_frame_skipped(parts: list[Slice]) -> object:
+    """Start each slice where the clip before would be at its frame `stop` + 1."""
     moves = [np.zeros(2)]
     for (previous, _, end), (clip, start, _) in pairwise(parts):
         moves.append(previous[end + 1] - clip[start])

@@ -22,35 +22,42 @@ def right_slide(positions: Array, planted: Mask) -> float:
 
 
 def mistake_slide_with_height(positions: Array, planted: Mask) -> object:
+    """Return the largest distance in space of a planted frame from the mean position, in centimetres."""
     ground = positions[planted]
     return 100 * np.linalg.norm(ground - ground.mean(axis=0), axis=1).max()
 
 
 def mistake_in_metres(positions: Array, planted: Mask) -> object:
+    """Return the largest distance of a planted frame from the mean position, in metres."""
     return right_slide(positions, planted) / 100
 
 
 def mistake_all_frames(positions: Array, planted: Mask) -> object:
+    """Return the largest distance of any frame from the mean of all frames, in centimetres."""
     ground = positions[:, [0, 2]]
     return 100 * np.linalg.norm(ground - ground.mean(axis=0), axis=1).max()
 
 
 def mistake_mean_of_all_frames(positions: Array, planted: Mask) -> object:
+    """Return the largest distance of a planted frame from the mean of all frames, in centimetres."""
     ground = positions[planted][:, [0, 2]]
     return 100 * np.linalg.norm(ground - positions[:, [0, 2]].mean(axis=0), axis=1).max()
 
 
 def mistake_from_first_place(positions: Array, planted: Mask) -> object:
+    """Return the largest distance of a planted frame from the first planted one, in centimetres."""
     ground = positions[planted][:, [0, 2]]
     return 100 * np.linalg.norm(ground - ground[0], axis=1).max()
 
 
 def mistake_first_to_last(positions: Array, planted: Mask) -> object:
+    """Return the distance between the first planted frame and the last, in centimetres."""
     ground = positions[planted][:, [0, 2]]
     return 100 * np.hypot(*(ground[-1] - ground[0]))
 
 
 def mistake_length_of_path(positions: Array, planted: Mask) -> object:
+    """Return the length of the path over the ground in the planted frames, in centimetres."""
     return 100 * np.hypot(*np.diff(positions[planted][:, [0, 2]], axis=0).T).sum()
 
 
@@ -69,22 +76,27 @@ def right_plant_marks(speed: Array, start: float, stay: float) -> Mask:
 
 
 def mistake_start_alone(speed: Array, start: float, stay: float) -> object:
+    """Mark the frames below `start`."""
     return speed < start
 
 
 def mistake_stay_alone(speed: Array, start: float, stay: float) -> object:
+    """Mark the frames below `stay`."""
     return speed < stay
 
 
 def mistake_forwards_alone(speed: Array, start: float, stay: float) -> object:
+    """Mark frames below `start`, and those after them while the speed is below `stay`."""
     return grown(speed, start, stay, (1,))
 
 
 def mistake_backwards_alone(speed: Array, start: float, stay: float) -> object:
+    """Mark frames below `start`, and those before them while the speed is below `stay`."""
     return grown(speed, start, stay, (-1,))
 
 
 def mistake_inverted(speed: Array, start: float, stay: float) -> object:
+    """Mark the frames outside the right runs."""
     return ~right_plant_marks(speed, start, stay)
 
 
@@ -104,17 +116,21 @@ def right_knee_bend(thigh: float, shank: float, distance: float) -> float:
 
 
 def mistake_angle_between_bones(thigh: float, shank: float, distance: float) -> object:
+    """Return the angle between thigh and shank, π for a straight leg."""
     return np.pi - right_knee_bend(thigh, shank, distance)
 
 
 def mistake_in_degrees(thigh: float, shank: float, distance: float) -> object:
+    """Return the angle of the knee in degrees."""
     return np.degrees(right_knee_bend(thigh, shank, distance))
 
 
 def mistake_hip_angle(thigh: float, shank: float, distance: float) -> object:
+    """Return the angle at the hip, between the thigh and the line from hip to ankle."""
     cosine = (thigh**2 + distance**2 - shank**2) / (2 * thigh * distance)
     return np.arccos(cosine)
 
 
 def mistake_negative_bend(thigh: float, shank: float, distance: float) -> object:
+    """Return the negative angle of the knee."""
     return -right_knee_bend(thigh, shank, distance)

@@ -138,62 +138,77 @@ def same_tarjan(answer: Any, wanted: list[set[int]]) -> bool:  # noqa: ANN401
 
 
 def mistake_all_visited(successors: Successors) -> object:
+    """Lower low links also by edges to nodes whose component is complete."""
     return Search(successors, finished_count=True).components()
 
 
 def mistake_low_not_passed(successors: Successors) -> object:
+    """Never lower a node's low link to that of a child."""
     return Search(successors, passes_low=False).components()
 
 
 def mistake_single_node(successors: Successors) -> object:
+    """Return the first node of each component, and drop the others with it from the stack."""
     return Search(successors, takes=first_alone).components()
 
 
 def mistake_single_nodes(successors: Successors) -> object:
+    """Return each node as a component of its own."""
     return [{node} for node in successors]
 
 
 def mistake_undirected(successors: Successors) -> object:
+    """Return the weakly connected components."""
     return [set(part) for part in nx.connected_components(nx.DiGraph(successors).to_undirected())]
 
 
 def mistake_no_component(successors: Successors) -> object:
+    """Return an empty list."""
     return []
 
 
 def mistake_removed_alone(successors: Successors) -> object:
+    """Take the first node of a component alone off the stack, and leave those above it there."""
     return Search(successors, takes=itself).components()
 
 
 def mistake_whole_stack(successors: Successors) -> object:
+    """Take all nodes off the stack for each component, also those below its first node."""
     return Search(successors, takes=whole).components()
 
 
 def mistake_not_popped(successors: Successors) -> object:
+    """Return each component, and leave its nodes on the stack, as if it were not complete."""
     return Search(successors, takes=nothing).components()
 
 
 def mistake_first_node_missing(successors: Successors) -> object:
+    """Return each component without its first node."""
     return Search(successors, takes=all_but_first).components()
 
 
 def mistake_last_node_alone(successors: Successors) -> object:
+    """Take the top node alone off the stack as a component."""
     return Search(successors, takes=last).components()
 
 
 def mistake_stack_cut_by_number(successors: Successors) -> object:
+    """Cut the stack at the number of the first node instead of at its position."""
     return Search(successors, takes=by_number).components()
 
 
 def mistake_low_assigned(successors: Successors) -> object:
+    """Set a node's low link to the number of each successor on the stack, even if that is higher."""
     return Search(successors, lowered=lambda _, number: number).components()
 
 
 def mistake_nodes_not_in_sets(successors: Successors) -> object:
+    """Return the nodes of all components in one list."""
     return [node for part in right_tarjan(successors) for node in part]
 
 
 def mistake_largest_alone(successors: Successors) -> object:
+    """Return a list of one component, that of most nodes."""
     return [max(right_tarjan(successors), key=len)]
 
 
@@ -217,42 +232,52 @@ def right_component_to_keep(components: list[set[int]], edges: list[tuple[int, i
 
 
 def mistake_nodes_counted(components: list[set[int]], edges: list[tuple[int, int, int]]) -> object:
+    """Return the component with the most nodes."""
     return max(components, key=len)
 
 
 def mistake_leaving_edges(components: list[set[int]], edges: list[tuple[int, int, int]]) -> object:
+    """Return the component with the most frames on the edges that start in it."""
     return max(components, key=lambda part: sum(f for a, b, f in edges if a in part))
 
 
 def mistake_entering_edges(components: list[set[int]], edges: list[tuple[int, int, int]]) -> object:
+    """Return the component with the most frames on the edges that end in it."""
     return max(components, key=lambda part: sum(f for a, b, f in edges if b in part))
 
 
 def mistake_edges_counted(components: list[set[int]], edges: list[tuple[int, int, int]]) -> object:
+    """Return the component with the most inner edges."""
     return max(components, key=lambda part: sum(1 for a, b, f in edges if {a, b} <= part))
 
 
 def mistake_frames_themselves(components: list[set[int]], edges: list[tuple[int, int, int]]) -> object:
+    """Return the number of frames of the right component's inner edges."""
     part = right_component_to_keep(components, edges)
     return sum(f for a, b, f in edges if {a, b} <= part)
 
 
 def mistake_index_of_component(components: list[set[int]], edges: list[tuple[int, int, int]]) -> object:
+    """Return the index of the right component in the list."""
     return components.index(right_component_to_keep(components, edges))
 
 
 def mistake_either_end(components: list[set[int]], edges: list[tuple[int, int, int]]) -> object:
+    """Return the component with the most frames on the edges that start or end in it."""
     return max(components, key=lambda part: sum(f for a, b, f in edges if {a, b} & part))
 
 
 def mistake_longest_edge(components: list[set[int]], edges: list[tuple[int, int, int]]) -> object:
+    """Return the component that has the inner edge of most frames."""
     return max(components, key=lambda part: max((f for a, b, f in edges if {a, b} <= part), default=0))
 
 
 def mistake_fewest_frames(components: list[set[int]], edges: list[tuple[int, int, int]]) -> object:
+    """Return the component whose inner edges have the fewest frames."""
     return min(components, key=lambda part: sum(f for a, b, f in edges if {a, b} <= part))
 
 
 def mistake_all_but_the_best(components: list[set[int]], edges: list[tuple[int, int, int]]) -> object:
+    """Return the list of all components except the right one."""
     best = right_component_to_keep(components, edges)
     return [part for part in components if part is not best]

@@ -48,6 +48,7 @@ def reworded(reasons: dict[int, str], words: dict[str, str]) -> dict[int, str]:
 
 
 def mistake_dead_ends_with_edges_as_sinks(successors: dict[int, list[int]], kept: set[int]) -> object:
+    """Return 'sink' for nodes on no cycle that have successors, and otherwise the right reasons."""
     return {
         node: "sink" if reason == "dead end" and successors[node] else reason
         for node, reason in right_why_removed(successors, kept).items()
@@ -55,19 +56,23 @@ def mistake_dead_ends_with_edges_as_sinks(successors: dict[int, list[int]], kept
 
 
 def mistake_unreached_as_sinks(successors: dict[int, list[int]], kept: set[int]) -> object:
+    """Return 'sink' for all removed nodes on a cycle, and the right reason for the others."""
     return reworded(right_why_removed(successors, kept), {"unreached": "sink"})
 
 
 def mistake_exchanged(successors: dict[int, list[int]], kept: set[int]) -> object:
+    """Return 'sink' for 'unreached', and 'unreached' for 'sink'."""
     return reworded(right_why_removed(successors, kept), {"unreached": "sink", "sink": "unreached"})
 
 
 def mistake_reason_for_all(successors: dict[int, list[int]], kept: set[int]) -> object:
+    """Return the right reasons, and 'sink' for the nodes that are kept."""
     reasons = right_why_removed(successors, kept)
     return {node: reasons.get(node, "sink") for node in successors}
 
 
 def mistake_dead_ends_as_sinks(successors: dict[int, list[int]], kept: set[int]) -> object:
+    """Return 'sink' for all nodes on no cycle, and otherwise the right reasons."""
     return reworded(right_why_removed(successors, kept), {"dead end": "sink"})
 
 
@@ -94,20 +99,25 @@ def right_missing_ways(graph: nx.DiGraph, kinds: dict[str, set[int]]) -> set[tup
 
 
 def mistake_one_order(graph: nx.DiGraph, kinds: dict[str, set[int]]) -> object:
+    """Return the pairs without a walk from the kind listed first to the other, not in reverse."""
     return {(a, b) for a, b in combinations(kinds, 2) if not leads(graph, kinds[a], kinds[b])}
 
 
 def mistake_both_directions(graph: nx.DiGraph, kinds: dict[str, set[int]]) -> object:
+    """Return the pairs between which no path leads in the undirected graph."""
     return right_missing_ways(graph.to_undirected(), kinds)
 
 
 def mistake_reversed_pairs(graph: nx.DiGraph, kinds: dict[str, set[int]]) -> object:
+    """Return the pairs (a, b) without a walk from b to a."""
     return right_missing_ways(graph.reverse(), kinds)
 
 
 def mistake_single_edges(graph: nx.DiGraph, kinds: dict[str, set[int]]) -> object:
+    """Return the pairs that no single edge joins, even if a longer walk does."""
     return {(a, b) for a, b in permutations(kinds, 2) if not joined(graph, kinds[a], kinds[b])}
 
 
 def mistake_pairs_with_a_way(graph: nx.DiGraph, kinds: dict[str, set[int]]) -> object:
+    """Return the pairs with a walk from the first kind to the second."""
     return set(permutations(kinds, 2)) - right_missing_ways(graph, kinds)
