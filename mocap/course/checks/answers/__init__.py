@@ -8,5 +8,5 @@ A module such as `nb06_pruning` has functions for each exercise, here `tarjan`:
 - `mistake_...` are the wrong answers that `hints/06-pruning.toml` names below `[tarjan.mistakes]`. If several
   fit, the first one in that file counts.
 
-`common` contains what several notebooks use.
+`common` contains what several notebooks use. `searches` contains the search of notebook 07 and its variants.
 """

@@ -8,104 +8,19 @@ from typing import Any
 import numpy as np
 
 from mocap._shared.arrays import Array
-from mocap._shared.records import NamedTuple
 from mocap.course.checks.answers.common import Arguments, same_pose
+from mocap.course.checks.answers.searches import (
+    FoundWalk,
+    StepsFrom,
+    Variant,
+    cheapest_alone,
+    cheapest_first,
+    cheapest_last,
+    longer_walks,
+    search,
+)
 from mocap.course.checks.inputs import State, counted_ways_from, is_at, noted_requests
 from mocap.course.comparisons import close
-
-StepsFrom = Callable[[State], list[tuple[float, State]]]
-"""The edges that leave a state: the length of each, and the state at its end."""
-
-FoundWalk = tuple[float, list[State], int]
-"""The cost of a walk, its states, and the number of walks expanded."""
-
-Waiting = list[tuple[float, list[State]]]
-"""Walks to expand, each with its cost."""
-
-
-def longer_walks(steps_from: StepsFrom, cost: float, walk: list[State]) -> Waiting:
-    """Lengthen a walk by each edge that leaves its last state."""
-    return [(cost + length, [*walk, state]) for length, state in steps_from(walk[-1])]
-
-
-def cheapest_last(walks: Waiting) -> Waiting:
-    """Sort walks by falling cost, equal ones in their order."""
-    return sorted(walks, key=lambda walk: -walk[0])
-
-
-def cheapest_first(walks: Waiting) -> Waiting:
-    """Sort walks by rising cost."""
-    return sorted(walks, key=lambda walk: walk[0])
-
-
-def cheapest_alone(walks: Waiting) -> Waiting:
-    """Keep the cheapest walk."""
-    return cheapest_last(walks)[-1:]
-
-
-def search(
-    steps_from: StepsFrom,
-    start: State,
-    is_done: Callable[[State], bool],
-    arranged: Callable[[Waiting], Waiting] = cheapest_last,
-    position: int = -1,
-) -> FoundWalk:
-    """Search as the notebook does: the least cost, the states of this walk, and the number expanded."""
-    best: tuple[float, list[State]] = (np.inf, [])
-    waiting = [(0.0, [start])]
-    expanded = 0
-    while waiting:
-        cost, walk = waiting.pop(position)
-        if cost >= best[0]:
-            continue
-        if is_done(walk[-1]):
-            best = (cost, walk)
-            continue
-        expanded += 1
-        waiting += arranged(longer_walks(steps_from, cost, walk))
-    return *best, expanded
-
-
-class Variant(NamedTuple):
-    """What students change in the search.
-
-    Attributes
-    ----------
-    arranged : puts the longer walks in the order in which they are pushed.
-    is_cut : whether a walk of some cost is cut, after one of another cost.
-    expands_complete : complete walks are expanded, too.
-    adds : from the cost of a walk and the length of an edge to the cost of the longer walk.
-    is_first : the search ends at the first complete walk.
-    """
-
-    arranged: Callable[[Waiting], Waiting] = cheapest_last
-    is_cut: Callable[[float, float], bool] = operator.ge
-    expands_complete: bool = False
-    adds: Callable[[float, float], float] = operator.add
-    is_first: bool = False
-
-
-def search_again(
-    steps_from: StepsFrom, start: State, is_done: Callable[[State], bool], variant: Variant
-) -> FoundWalk:
-    """Search with something changed."""
-    best: tuple[float, list[State]] = (np.inf, [])
-    waiting = [(0.0, [start])]
-    expanded = 0
-    while waiting:
-        cost, walk = waiting.pop()
-        if best[1] and variant.is_cut(cost, best[0]):
-            continue
-        if is_done(walk[-1]):
-            best = (cost, walk)
-            if variant.is_first:
-                break
-            if not variant.expands_complete:
-                continue
-        expanded += 1
-        longer = [(variant.adds(cost, length), [*walk, state]) for length, state in steps_from(walk[-1])]
-        waiting += variant.arranged(longer)
-    return *best, expanded
 
 
 def placed(transforms: Array, rotated_by: Callable[[float, float], float]) -> tuple[float, float, float]:
@@ -146,15 +61,17 @@ same_product_of = same_pose
 
 
 def mistake_steps_not_rotated(transforms: Array) -> object:
+    """Return the sum of all angles and the sum of the translations (x, z) as they are."""
     angle = 0.0
     position = 0j
     for rotation, x, z in transforms:
-        position += (z + 1j * x) * np.exp(0)
+        position += z + 1j * x
         angle += rotation
     return angle, position.imag, position.real
 
 
 def mistake_rotated_by_itself(transforms: Array) -> object:
+    """Rotate each translation by the sum of the angles up to and including its own."""
     angle = 0.0
     position = 0j
     for rotation, x, z in transforms:
@@ -164,6 +81,7 @@ def mistake_rotated_by_itself(transforms: Array) -> object:
 
 
 def mistake_rotated_backwards(transforms: Array) -> object:
+    """Rotate each translation by minus the sum of the angles before it."""
     angle = 0.0
     position = 0j
     for rotation, x, z in transforms:
@@ -173,36 +91,44 @@ def mistake_rotated_backwards(transforms: Array) -> object:
 
 
 def mistake_product_reversed(transforms: Array) -> object:
+    """Return the product Tn … T2 T1."""
     return right_product_of(transforms[::-1])
 
 
 def mistake_angles_converted(transforms: Array) -> object:
+    """Rotate each translation by π/180 of the sum of the angles before it; return the sum itself."""
     return placed(transforms, lambda total, _: float(np.radians(total)))
 
 
 def mistake_angle_of_row_before(transforms: Array) -> object:
+    """Rotate each translation by the angle of the row before it alone, the first by 0."""
     return placed(transforms, lambda _, previous: previous)
 
 
 def mistake_rotated_by_last_angle(transforms: Array) -> object:
+    """Rotate every translation by the sum of the angles of all rows."""
     total = float(transforms[:, 0].sum())
     return placed(transforms, lambda *_: total)
 
 
 def mistake_last_angle_alone(transforms: Array) -> object:
+    """Return the angle of the last row with the x and z of the product."""
     return transforms[-1, 0], *right_product_of(transforms)[1:]
 
 
 def mistake_z_before_x(transforms: Array) -> object:
+    """Return the product as (angle, z, x)."""
     angle, x, z = right_product_of(transforms)
     return angle, z, x
 
 
 def mistake_last_row_missing(transforms: Array) -> object:
+    """Return the product of all transforms except the last."""
     return right_product_of(transforms[:-1])
 
 
 def mistake_first_row_missing(transforms: Array) -> object:
+    """Return the product of all transforms except the first."""
     return right_product_of(transforms[1:])
 
 
@@ -249,18 +175,12 @@ def same_cheapest_walk(answer: Any, wanted: FoundWalk) -> bool:  # noqa: ANN401
 def mistake_first_complete_walk(
     steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
 ) -> object:
-    waiting = [(0.0, [start])]
-    expanded = 0
-    while waiting:
-        cost, walk = waiting.pop()
-        if is_done(walk[-1]):
-            return cost, walk, expanded
-        expanded += 1
-        waiting += cheapest_last(longer_walks(steps_from, cost, walk))
-    return np.inf, [], expanded
+    """Return the first complete walk that the depth-first search meets."""
+    return search(steps_from, start, is_done, Variant(is_first=True))
 
 
 def mistake_no_bound(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
+    """Expand every incomplete walk, with no bound, and return the complete walk of least cost."""
     best: tuple[float, list[State]] = (np.inf, [])
     waiting = [(0.0, [start])]
     expanded = 0
@@ -275,24 +195,29 @@ def mistake_no_bound(steps_from: StepsFrom, start: State, is_done: Callable[[Sta
 
 
 def mistake_dearest_first(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
-    return search(steps_from, start, is_done, arranged=cheapest_first)
+    """Search depth first with the longer walks sorted so that the one of highest cost is popped first."""
+    return search(steps_from, start, is_done, Variant(cheapest_first))
 
 
 def mistake_unsorted(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
-    return search(steps_from, start, is_done, arranged=list)
+    """Search depth first with the longer walks pushed in the order in which the graph lists them."""
+    return search(steps_from, start, is_done, Variant(list))
 
 
 def mistake_oldest_first(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
-    return search(steps_from, start, is_done, position=0)
+    """Search breadth first: pop the walk that has waited longest, from a queue sorted by falling cost."""
+    return search(steps_from, start, is_done, Variant(position=0))
 
 
 def mistake_cheapest_edge_alone(
     steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
 ) -> object:
-    return search(steps_from, start, is_done, arranged=cheapest_alone)
+    """Search greedily: push only the cheapest of the longer walks of each walk."""
+    return search(steps_from, start, is_done, Variant(cheapest_alone))
 
 
 def mistake_places_met(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
+    """Cut also each walk to a node that another walk, of any number of edges, has reached before."""
     best: tuple[float, list[State]] = (np.inf, [])
     met = set()
     waiting = [(0.0, [start])]
@@ -312,6 +237,7 @@ def mistake_places_met(steps_from: StepsFrom, start: State, is_done: Callable[[S
 
 
 def mistake_pops_counted(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
+    """Return the walk of least cost with the number of popped walks, also those cut or complete."""
     best: tuple[float, list[State]] = (np.inf, [])
     waiting = [(0.0, [start])]
     expanded = 0
@@ -328,15 +254,18 @@ def mistake_pops_counted(steps_from: StepsFrom, start: State, is_done: Callable[
 
 
 def mistake_start_missing(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
+    """Return the walk of least cost without its first state."""
     cost, walk, expanded = right_cheapest_walk(steps_from, start, is_done)
     return cost, walk[1:], expanded
 
 
 def mistake_equal_walks_kept(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
-    return search_again(steps_from, start, is_done, Variant(is_cut=operator.gt))
+    """Cut a walk only if its cost is greater than that of the best complete walk, not if it is equal."""
+    return search(steps_from, start, is_done, Variant(is_cut=operator.gt))
 
 
 def mistake_asked_twice(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
+    """Return the right result, but request the edges of the states of the best walk once more."""
     cost, walk, expanded = right_cheapest_walk(steps_from, start, is_done)
     for state in [start, *walk]:
         steps_from(state)
@@ -346,44 +275,52 @@ def mistake_asked_twice(steps_from: StepsFrom, start: State, is_done: Callable[[
 def mistake_complete_walks_expanded(
     steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
 ) -> object:
-    return search_again(steps_from, start, is_done, Variant(expands_complete=True))
+    """Expand and count a complete walk like any other after storing it as the best."""
+    return search(steps_from, start, is_done, Variant(expands_complete=True))
 
 
 def mistake_complete_walks_expanded_unsorted(
     steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
 ) -> object:
-    return search_again(steps_from, start, is_done, Variant(list, expands_complete=True))
+    """Expand and count complete walks, and push the longer walks in the order of the graph."""
+    return search(steps_from, start, is_done, Variant(list, expands_complete=True))
 
 
 def mistake_last_edge_alone(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
-    return search_again(steps_from, start, is_done, Variant(adds=lambda _, length: length))
+    """Search with the length of its last edge as the cost of a walk."""
+    return search(steps_from, start, is_done, Variant(add=lambda _, length: length))
 
 
 def mistake_last_edge_alone_unsorted(
     steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
 ) -> object:
-    return search_again(steps_from, start, is_done, Variant(list, adds=lambda _, length: length))
+    """Search with the length of the last edge as the cost, pushing walks in the order of the graph."""
+    return search(steps_from, start, is_done, Variant(list, add=lambda _, length: length))
 
 
 def mistake_first_complete_walk_unsorted(
     steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
 ) -> object:
-    return search_again(steps_from, start, is_done, Variant(list, is_first=True))
+    """Return the first complete walk met if the longer walks are pushed in the order of the graph."""
+    return search(steps_from, start, is_done, Variant(list, is_first=True))
 
 
 def mistake_oldest_first_unsorted(
     steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
 ) -> object:
-    return search(steps_from, start, is_done, arranged=list, position=0)
+    """Search breadth first, with the longer walks queued in the order of the graph."""
+    return search(steps_from, start, is_done, Variant(list, position=0))
 
 
 def mistake_oldest_first_reversed(
     steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
 ) -> object:
-    return search(steps_from, start, is_done, arranged=cheapest_first, position=0)
+    """Search breadth first, with the longer walks queued by rising cost."""
+    return search(steps_from, start, is_done, Variant(cheapest_first, position=0))
 
 
 def mistake_walk_first(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
+    """Return (states, cost, number) of the right search."""
     cost, walk, expanded = right_cheapest_walk(steps_from, start, is_done)
     return walk, cost, expanded
 
@@ -391,21 +328,25 @@ def mistake_walk_first(steps_from: StepsFrom, start: State, is_done: Callable[[S
 def mistake_walk_first_unsorted(
     steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
 ) -> object:
-    cost, walk, expanded = search(steps_from, start, is_done, arranged=list)
+    """Return (states, cost, number) of a search that pushes walks in the order of the graph."""
+    cost, walk, expanded = search(steps_from, start, is_done, Variant(list))
     return walk, cost, expanded
 
 
 def mistake_number_missing(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
+    """Return (cost, states) of the right search, without the number of expanded walks."""
     return right_cheapest_walk(steps_from, start, is_done)[:2]
 
 
 def mistake_number_missing_unsorted(
     steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
 ) -> object:
-    return search(steps_from, start, is_done, arranged=list)[:2]
+    """Return (cost, states) of a search that pushes walks in the order of the graph."""
+    return search(steps_from, start, is_done, Variant(list))[:2]
 
 
 def mistake_last_state_alone(steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]) -> object:
+    """Return the last state of the walk of least cost in place of the list of its states."""
     cost, walk, expanded = right_cheapest_walk(steps_from, start, is_done)
     return cost, (walk[-1] if walk else ()), expanded
 
@@ -413,5 +354,6 @@ def mistake_last_state_alone(steps_from: StepsFrom, start: State, is_done: Calla
 def mistake_start_not_counted(
     steps_from: StepsFrom, start: State, is_done: Callable[[State], bool]
 ) -> object:
+    """Return the number of expanded walks minus one, with the right cost and states."""
     cost, walk, expanded = right_cheapest_walk(steps_from, start, is_done)
     return cost, walk, expanded - 1

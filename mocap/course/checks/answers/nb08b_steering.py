@@ -34,10 +34,12 @@ def right_obeys_after(track: Array, heading: float, frame: int, back: int) -> in
 
 
 def mistake_x_and_z_swapped(track: Array, heading: float, frame: int, back: int) -> object:
+    """Measure the walk's direction from the x-axis: arctan2(z, x) - heading."""
     return right_obeys_after(track[:, ::-1], heading, frame, back)
 
 
 def mistake_not_wrapped(track: Array, heading: float, frame: int, back: int) -> object:
+    """Compare the absolute difference of the two angles without reducing it to ±180°."""
     moved = track[back:] - track[:-back]
     difference = np.arctan2(moved[:, 0], moved[:, 1]) - heading
     difference = np.abs(difference)
@@ -46,22 +48,25 @@ def mistake_not_wrapped(track: Array, heading: float, frame: int, back: int) -> 
 
 
 def mistake_signed_difference(track: Array, heading: float, frame: int, back: int) -> object:
+    """Compare the signed difference with 20°, neither reduced to ±180° nor absolute."""
     moved = track[back:] - track[:-back]
     difference = np.arctan2(moved[:, 0], moved[:, 1]) - heading
-    difference = difference
     obeys = difference[max(frame - back, 0) :] < np.radians(20)
     return int(obeys.argmax()) if obeys.any() else -1
 
 
 def mistake_from_start(track: Array, heading: float, frame: int, back: int) -> object:
+    """Look from the first frame that has a direction, and count from there instead of from the command."""
     return right_obeys_after(track, heading, back, back)
 
 
 def mistake_too_late(track: Array, heading: float, frame: int, back: int) -> object:
+    """Look and count only from `back` frames after the command."""
     return right_obeys_after(track, heading, frame + back, back)
 
 
 def mistake_frame_number(track: Array, heading: float, frame: int, back: int) -> object:
+    """Return the index of the frame in the track instead of the frames since the command."""
     correct = right_obeys_after(track, heading, frame, back)
     return correct + frame if correct >= 0 else -1
 
@@ -80,17 +85,19 @@ def draw_crowding_cost(rng: np.random.Generator) -> Arguments:
 
 
 def right_crowding_cost(track: Array, neighbour: Array, clearance: float) -> float:
-    """Add up the squares of how much nearer than `apart` two walkers come."""
+    """Add up the squared shortfalls, max(0, clearance - distance)², of two walkers in each frame."""
     positions = neighbour[np.minimum(np.arange(len(track)), len(neighbour) - 1)]
     shortfall = np.maximum(clearance - np.hypot(*(track - positions).T), 0.0)
     return float(np.sum(shortfall**2))
 
 
 def mistake_stops_with_other(track: Array, neighbour: Array, clearance: float) -> object:
+    """Add up the squared shortfalls only over the frames that both tracks have."""
     return right_crowding_cost(track[: len(neighbour)], neighbour[: len(track)], clearance)
 
 
 def mistake_any_frame(track: Array, neighbour: Array, clearance: float) -> object:
+    """Measure each frame to the neighbour's nearest position in any of its frames."""
     offsets = track[:, None] - neighbour
     distances = np.hypot(offsets[..., 0], offsets[..., 1]).min(axis=1)
     shortfall = np.maximum(clearance - distances, 0.0)
@@ -98,18 +105,21 @@ def mistake_any_frame(track: Array, neighbour: Array, clearance: float) -> objec
 
 
 def mistake_below_zero(track: Array, neighbour: Array, clearance: float) -> object:
+    """Add up (clearance - distance)² over all frames, also those farther apart than the clearance."""
     positions = neighbour[np.minimum(np.arange(len(track)), len(neighbour) - 1)]
     shortfall = clearance - np.hypot(*(track - positions).T)
     return float(np.sum(shortfall**2))
 
 
 def mistake_metres(track: Array, neighbour: Array, clearance: float) -> object:
+    """Add up the shortfalls in metres, not their squares."""
     positions = neighbour[np.minimum(np.arange(len(track)), len(neighbour) - 1)]
     shortfall = np.maximum(clearance - np.hypot(*(track - positions).T), 0.0)
     return float(np.sum(shortfall))
 
 
 def mistake_root(track: Array, neighbour: Array, clearance: float) -> object:
+    """Return the square root of the sum of the squared shortfalls."""
     return np.sqrt(right_crowding_cost(track, neighbour, clearance))
 
 
@@ -143,6 +153,7 @@ def right_next_edge(rotation: complex, tracks: list[Points], heading: float, spe
 def mistake_not_rotated(
     rotation: complex, tracks: list[Points], heading: float, speed: float, fps: float
 ) -> object:
+    """Compare the tracks' velocities in the frame of the clip with the request."""
     wanted = speed * np.exp(1j * heading)
     velocities = [complex(track[-1] - track[0]) / (len(track) - 1) * fps for track in tracks]
     return int(np.argmin([abs(v - wanted) for v in velocities]))
@@ -151,6 +162,7 @@ def mistake_not_rotated(
 def mistake_rotated_backwards(
     rotation: complex, tracks: list[Points], heading: float, speed: float, fps: float
 ) -> object:
+    """Compare the tracks' velocities, rotated by the inverse rotation, with the request."""
     wanted = speed * np.exp(1j * heading)
     velocities = [complex(track[-1] - track[0]) / (len(track) - 1) * fps for track in tracks]
     return int(np.argmin([abs(v / rotation - wanted) for v in velocities]))
@@ -159,6 +171,7 @@ def mistake_rotated_backwards(
 def mistake_heading_from_x(
     rotation: complex, tracks: list[Points], heading: float, speed: float, fps: float
 ) -> object:
+    """Measure the requested heading from +x towards +z: speed · i · exp(-i heading)."""
     wanted = speed * 1j * np.exp(-1j * heading)
     velocities = [complex(track[-1] - track[0]) / (len(track) - 1) * fps for track in tracks]
     return int(np.argmin([abs(rotation * v - wanted) for v in velocities]))
@@ -167,30 +180,34 @@ def mistake_heading_from_x(
 def mistake_sum_of_steps(
     rotation: complex, tracks: list[Points], heading: float, speed: float, fps: float
 ) -> object:
+    """Compare the displacement of each track in metres with the requested velocity."""
     wanted = speed * np.exp(1j * heading)
-    velocities = [complex(track[-1] - track[0]) / 1 for track in tracks]
+    velocities = [complex(track[-1] - track[0]) for track in tracks]
     return int(np.argmin([abs(rotation * v - wanted) for v in velocities]))
 
 
 def mistake_per_frame(
     rotation: complex, tracks: list[Points], heading: float, speed: float, fps: float
 ) -> object:
+    """Compare mean velocities in metres per frame with the requested one in metres per second."""
     wanted = speed * np.exp(1j * heading)
-    velocities = [complex(track[-1] - track[0]) / (len(track) - 1) * 1 for track in tracks]
+    velocities = [complex(track[-1] - track[0]) / (len(track) - 1) for track in tracks]
     return int(np.argmin([abs(rotation * v - wanted) for v in velocities]))
 
 
 def mistake_frames_for_steps(
     rotation: complex, tracks: list[Points], heading: float, speed: float, fps: float
 ) -> object:
+    """Divide by the number of points n + 1 instead of the n steps between them."""
     wanted = speed * np.exp(1j * heading)
-    velocities = [complex(track[-1] - track[0]) / (len(track)) * fps for track in tracks]
+    velocities = [complex(track[-1] - track[0]) / len(track) * fps for track in tracks]
     return int(np.argmin([abs(rotation * v - wanted) for v in velocities]))
 
 
 def mistake_direction_alone(
     rotation: complex, tracks: list[Points], heading: float, speed: float, fps: float
 ) -> object:
+    """Choose the track whose mean direction is nearest to the heading, whatever its speed."""
     wanted = speed * np.exp(1j * heading)
     velocities = [complex(track[-1] - track[0]) / (len(track) - 1) * fps for track in tracks]
     return int(np.argmin([abs(rotation * v / abs(v) - wanted / speed) for v in velocities]))

@@ -37,26 +37,31 @@ def right_edge_cost(track: Array, path: PathAt, along: float, least_step: float)
 
 
 def mistake_no_least_progress(track: Array, path: PathAt, along: float, least_step: float) -> object:
+    """Advance along the path by the steps' own lengths, with no minimum."""
     reached = along + np.cumsum(np.hypot(*np.diff(track, axis=0).T))
     return float(np.sum((track[1:] - path(reached)) ** 2)), float(reached[-1])
 
 
 def mistake_least_progress_added(track: Array, path: PathAt, along: float, least_step: float) -> object:
+    """Advance along the path by each step's length plus `least_step`."""
     reached = along + np.cumsum(np.hypot(*np.diff(track, axis=0).T) + least_step)
     return float(np.sum((track[1:] - path(reached)) ** 2)), float(reached[-1])
 
 
 def mistake_starts_at_zero(track: Array, path: PathAt, along: float, least_step: float) -> object:
+    """Compare the edge with the start of the path: s counts from 0 instead of `along`."""
     reached = np.cumsum(np.maximum(np.hypot(*np.diff(track, axis=0).T), least_step))
     return float(np.sum((track[1:] - path(reached)) ** 2)), float(reached[-1])
 
 
 def mistake_mean_of_frames(track: Array, path: PathAt, along: float, least_step: float) -> object:
+    """Return the mean of the squared distances, with the right arc length."""
     cost, along = right_edge_cost(track, path, along, least_step)
     return cost / (len(track) - 1), along
 
 
 def mistake_distances(track: Array, path: PathAt, along: float, least_step: float) -> object:
+    """Return the sum of the distances in metres, with the right arc length."""
     reached = along + np.cumsum(np.maximum(np.hypot(*np.diff(track, axis=0).T), least_step))
     return float(np.hypot(*(track[1:] - path(reached)).T).sum()), float(reached[-1])
 
@@ -98,6 +103,7 @@ def right_lengthen(walk: Walk, edges: list[Edge], path: PathAt, least_step: floa
 
 
 def mistake_track_not_transformed(walk: Walk, edges: list[Edge], path: PathAt, least_step: float) -> object:
+    """Take arc length and cost from the track as it was captured; transform the walk's end correctly."""
     _, _, along, cost = walk
     plain = right_lengthen((1, 0, along, cost), edges, path, least_step)
     moved = right_lengthen(walk, edges, path, least_step)
@@ -105,10 +111,12 @@ def mistake_track_not_transformed(walk: Walk, edges: list[Edge], path: PathAt, l
 
 
 def mistake_x_and_z_swapped(walk: Walk, edges: list[Edge], path: PathAt, least_step: float) -> object:
+    """Compare the rows (x, z) of the track with rows (z, x) of the path."""
     return right_lengthen(walk, edges, lambda along: path(along)[:, ::-1], least_step)
 
 
 def mistake_translation_not_rotated(walk: Walk, edges: list[Edge], path: PathAt, least_step: float) -> object:
+    """Add the edge's translation to that of the walk without rotating it."""
     _, translation, _, _ = walk
     longer = right_lengthen(walk, edges, path, least_step)
     starts = [translation + edge_translation for _, _, _, edge_translation, _ in edges]
@@ -116,27 +124,32 @@ def mistake_translation_not_rotated(walk: Walk, edges: list[Edge], path: PathAt,
 
 
 def mistake_rotation_kept(walk: Walk, edges: list[Edge], path: PathAt, least_step: float) -> object:
+    """Return the walk's rotation without multiplying it by the edge's."""
     rotation, _, _, _ = walk
     longer = right_lengthen(walk, edges, path, least_step)
     return [(end, rotation, *rest) for end, _, *rest in longer]
 
 
 def mistake_edge_alone(walk: Walk, edges: list[Edge], path: PathAt, least_step: float) -> object:
+    """Return the cost of the edge and its price, without the walk's cost so far."""
     rotation, translation, along, _ = walk
     return right_lengthen((rotation, translation, along, 0.0), edges, path, least_step)
 
 
 def mistake_no_price(walk: Walk, edges: list[Edge], path: PathAt, least_step: float) -> object:
+    """Return the cost without the price of the edge."""
     unpriced = [(*edge[:-1], 0.0) for edge in edges]
     return right_lengthen(walk, unpriced, path, least_step)
 
 
 def mistake_from_beginning(walk: Walk, edges: list[Edge], path: PathAt, least_step: float) -> object:
+    """Compare each edge with the path from s = 0 instead of from `along`."""
     rotation, translation, _, cost = walk
     return right_lengthen((rotation, translation, 0.0, cost), edges, path, least_step)
 
 
 def mistake_progress_alone(walk: Walk, edges: list[Edge], path: PathAt, least_step: float) -> object:
+    """Return the arc length of the edge itself instead of that from the start of the path."""
     _, _, start, _ = walk
     longer = right_lengthen(walk, edges, path, least_step)
     return [(*front, along - start, cost) for *front, along, cost in longer]

@@ -27,6 +27,7 @@ def right_added_jolt(result: Array, first: Array, second: Array, alpha: Array, f
 
 
 def mistake_weights_early(result: Array, first: Array, second: Array, alpha: Array, fps: float) -> object:
+    """Mix the clips' second differences by the weights of the frame before."""
     share = alpha[:-2, None]
     changes = [np.diff(places, 2, axis=0) for places in (result, first, second)]
     added = changes[0] - share * changes[1] - (1 - share) * changes[2]
@@ -34,6 +35,7 @@ def mistake_weights_early(result: Array, first: Array, second: Array, alpha: Arr
 
 
 def mistake_weights_late(result: Array, first: Array, second: Array, alpha: Array, fps: float) -> object:
+    """Mix the clips' second differences by the weights of the frame after."""
     share = alpha[2:, None]
     changes = [np.diff(places, 2, axis=0) for places in (result, first, second)]
     added = changes[0] - share * changes[1] - (1 - share) * changes[2]
@@ -41,6 +43,7 @@ def mistake_weights_late(result: Array, first: Array, second: Array, alpha: Arra
 
 
 def mistake_weights_exchanged(result: Array, first: Array, second: Array, alpha: Array, fps: float) -> object:
+    """Mix the clips' second differences with α for the second clip and 1 - α for the first."""
     share = alpha[1:-1, None]
     changes = [np.diff(places, 2, axis=0) for places in (result, second, first)]
     added = changes[0] - share * changes[1] - (1 - share) * changes[2]
@@ -48,28 +51,33 @@ def mistake_weights_exchanged(result: Array, first: Array, second: Array, alpha:
 
 
 def mistake_whole_jolt(result: Array, first: Array, second: Array, alpha: Array, fps: float) -> object:
+    """Return the largest change of the blend's velocity, with those of the clips included."""
     return np.linalg.norm(np.diff(result, 2, axis=0), axis=1).max() * fps
 
 
 def mistake_mixed_before_differences(
     result: Array, first: Array, second: Array, alpha: Array, fps: float
 ) -> object:
+    """Mix the clips' positions, and take the second differences of the blend minus this mixture."""
     mixed = alpha[:, None] * first + (1 - alpha[:, None]) * second
     added = np.diff(result - mixed, 2, axis=0)
     return np.linalg.norm(added, axis=1).max() * fps
 
 
 def mistake_per_frame(result: Array, first: Array, second: Array, alpha: Array, fps: float) -> object:
+    """Return the largest added change of velocity in metres per frame."""
     return right_added_jolt(result, first, second, alpha, fps) / fps
 
 
 def mistake_acceleration(result: Array, first: Array, second: Array, alpha: Array, fps: float) -> object:
+    """Return the right change of velocity times fps once more, in m/s²."""
     return right_added_jolt(result, first, second, alpha, fps) * fps
 
 
 def mistake_largest_coordinate(
     result: Array, first: Array, second: Array, alpha: Array, fps: float
 ) -> object:
+    """Return the largest absolute coordinate of the added vectors instead of the largest length."""
     share = alpha[1:-1, None]
     changes = [np.diff(places, 2, axis=0) for places in (result, first, second)]
     added = changes[0] - share * changes[1] - (1 - share) * changes[2]
@@ -91,24 +99,30 @@ def right_paired_gain(old_costs: Array, new_costs: Array) -> Array:
 
 
 def mistake_difference_of_quartiles(old_costs: Array, new_costs: Array) -> object:
+    """Return the quartiles of the old costs minus those of the new costs."""
     return np.percentile(old_costs, [25, 50, 75]) - np.percentile(new_costs, [25, 50, 75])
 
 
 def mistake_loss(old_costs: Array, new_costs: Array) -> object:
+    """Return the quartiles of new minus old costs, match by match."""
     return np.percentile(new_costs - old_costs, [25, 50, 75])
 
 
 def mistake_absolute_gain(old_costs: Array, new_costs: Array) -> object:
+    """Return the quartiles of the absolute differences, match by match."""
     return np.percentile(np.abs(old_costs - new_costs), [25, 50, 75])
 
 
 def mistake_pairs_sorted(old_costs: Array, new_costs: Array) -> object:
+    """Return the quartiles of the differences after sorting both lists of costs."""
     return np.percentile(np.sort(old_costs) - np.sort(new_costs), [25, 50, 75])
 
 
 def mistake_median_alone(old_costs: Array, new_costs: Array) -> object:
+    """Return the median of the differences as one number."""
     return np.median(old_costs - new_costs)
 
 
 def mistake_fractions_for_percent(old_costs: Array, new_costs: Array) -> object:
+    """Return the percentiles 0.25 %, 0.5 % and 0.75 % of the differences."""
     return np.percentile(old_costs - new_costs, [0.25, 0.5, 0.75])

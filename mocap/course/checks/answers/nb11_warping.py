@@ -37,34 +37,42 @@ same_offset_curve = close_rotations
 
 
 def mistake_offset_on_the_left(q: Array, key: int, pose: Array, share: Array) -> object:
+    """Return exp(share b) q, with the offset b = log(q_key⁻¹ pose) of the joint's own frame."""
     return multiply(from_rotvec(share[:, None] * to_rotvec(multiply(inverse(q[key]), pose))), q)
 
 
 def mistake_opposite_offset(q: Array, key: int, pose: Array, share: Array) -> object:
+    """Return q exp(-share b), which at the key rotates away from the pose."""
     return multiply(q, from_rotvec(-share[:, None] * to_rotvec(multiply(inverse(q[key]), pose))))
 
 
 def mistake_rotation_vectors_subtracted(q: Array, key: int, pose: Array, share: Array) -> object:
+    """Return q exp(share b) with b = log(pose) - log(q_key)."""
     return multiply(q, from_rotvec(share[:, None] * (to_rotvec(pose) - to_rotvec(q[key]))))
 
 
 def mistake_long_way_round(q: Array, key: int, pose: Array, share: Array) -> object:
+    """Return q exp(share b) with a rotation vector b longer than π if w < 0 in q_key⁻¹ pose."""
     return multiply(q, from_rotvec(share[:, None] * long_way(multiply(inverse(q[key]), pose))))
 
 
 def mistake_offset_of_each_frame(q: Array, key: int, pose: Array, share: Array) -> object:
+    """Return q exp(share b) with b = log(q⁻¹ pose) of each frame instead of the key's."""
     return multiply(q, from_rotvec(share[:, None] * to_rotvec(multiply(inverse(q), pose))))
 
 
 def mistake_whole_offset(q: Array, key: int, pose: Array, share: Array) -> object:
-    return multiply(q, from_rotvec(1 * to_rotvec(multiply(inverse(q[key]), pose))))
+    """Return q exp(b) in every frame, whatever its share."""
+    return multiply(q, from_rotvec(to_rotvec(multiply(inverse(q[key]), pose))))
 
 
 def mistake_numbers_mixed(q: Array, key: int, pose: Array, share: Array) -> object:
+    """Return (1 - share) q + share · pose, component by component, not normalised."""
     return (1 - share[:, None]) * q + share[:, None] * pose
 
 
 def mistake_parents_frame(q: Array, key: int, pose: Array, share: Array) -> object:
+    """Return exp(share b) q, with the offset b = log(pose q_key⁻¹) of the parent's frame."""
     return multiply(from_rotvec(share[:, None] * to_rotvec(multiply(pose, inverse(q[key])))), q)
 
 
@@ -86,6 +94,7 @@ def right_cardinal_slopes(times: Array, values: Array, tension: float) -> Array:
 
 
 def mistake_number_of_keys(times: Array, values: Array, tension: float) -> object:
+    """Divide the rise from the key before to the key after by 2 instead of by the time between them."""
     slopes = np.zeros(len(times))
     rises = values[2:] - values[:-2]
     slopes[1:-1] = (1 - tension) * rises / 2
@@ -93,14 +102,17 @@ def mistake_number_of_keys(times: Array, values: Array, tension: float) -> objec
 
 
 def mistake_no_tension(times: Array, values: Array, tension: float) -> object:
+    """Return the slopes of tension 0, those of a Catmull-Rom spline."""
     return right_cardinal_slopes(times, values, 0.0)
 
 
 def mistake_tension_for_slack(times: Array, values: Array, tension: float) -> object:
+    """Multiply the chords' slopes by the tension instead of one minus the tension."""
     return right_cardinal_slopes(times, values, 1 - tension)
 
 
 def mistake_steep_ends(times: Array, values: Array, tension: float) -> object:
+    """Return one-sided differences times (1 - tension) as the slopes at both ends."""
     slopes = (1 - tension) * np.gradient(values, times)
     rises = values[2:] - values[:-2]
     slopes[1:-1] = (1 - tension) * rises / (times[2:] - times[:-2])
@@ -108,6 +120,7 @@ def mistake_steep_ends(times: Array, values: Array, tension: float) -> object:
 
 
 def mistake_next_key_alone(times: Array, values: Array, tension: float) -> object:
+    """Return (1 - tension) times the slope of the chord from each inner key to the next."""
     slopes = np.zeros(len(times))
     rises = values[2:] - values[1:-1]
     slopes[1:-1] = (1 - tension) * rises / (times[2:] - times[1:-1])
@@ -128,28 +141,35 @@ def right_flight_time(rise: float, added: float) -> float:
 
 
 def mistake_ratio_of_heights(rise: float, added: float) -> object:
+    """Return the ratio of the new rise to the old one, without the square root."""
     return (rise + added) / rise
 
 
 def mistake_ratio_of_added(rise: float, added: float) -> object:
+    """Return the ratio of the added height to the old rise."""
     return added / rise
 
 
 def mistake_squared_ratio(rise: float, added: float) -> object:
+    """Return the square of the ratio of the rises."""
     return ((rise + added) / rise) ** 2
 
 
 def mistake_linearised(rise: float, added: float) -> object:
+    """Return 1 + added / (2 rise), the first-order approximation of the square root."""
     return 1 + added / (2 * rise)
 
 
 def mistake_root_of_added(rise: float, added: float) -> object:
+    """Return the square root of the ratio of the added height to the old rise."""
     return np.sqrt(added / rise)
 
 
 def mistake_inverse_ratio(rise: float, added: float) -> object:
+    """Return the old flight time divided by the new one."""
     return np.sqrt(rise / (rise + added))
 
 
 def mistake_in_seconds(rise: float, added: float) -> object:
+    """Return the new flight time 2 √(2 (rise + added) / g), up and down, in seconds."""
     return 2 * np.sqrt(2 * (rise + added) / 9.81)

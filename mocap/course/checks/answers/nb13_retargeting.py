@@ -28,27 +28,33 @@ def right_scaled_root(hips: Array, ratio: float, low_s: float, low_t: float, cen
 
 
 def mistake_about_the_floor(hips: Array, ratio: float, low_s: float, low_t: float, centre: Array) -> object:
+    """Scale the heights about the floor: y becomes ratio · y."""
     return right_scaled_root(hips, ratio, 0.0, 0.0, centre)
 
 
 def mistake_source_ankles(hips: Array, ratio: float, low_s: float, low_t: float, centre: Array) -> object:
+    """Put the scaled heights on the source's ankle height: low_s + ratio (y - low_s)."""
     return right_scaled_root(hips, ratio, low_s, low_s, centre)
 
 
 def mistake_ankles_swapped(hips: Array, ratio: float, low_s: float, low_t: float, centre: Array) -> object:
+    """Scale the heights as low_s + ratio (y - low_t), with the two ankle heights exchanged."""
     return right_scaled_root(hips, ratio, low_t, low_s, centre)
 
 
 def mistake_about_the_origin(hips: Array, ratio: float, low_s: float, low_t: float, centre: Array) -> object:
+    """Scale x and z about the origin instead of the centre."""
     return right_scaled_root(hips, ratio, low_s, low_t, np.zeros(2))
 
 
 def mistake_path_not_scaled(hips: Array, ratio: float, low_s: float, low_t: float, centre: Array) -> object:
+    """Return the hips' x and z as they are, with the right heights."""
     scaled = right_scaled_root(hips, ratio, low_s, low_t, centre)
     return np.stack([hips[:, 0], scaled[:, 1], hips[:, 2]], axis=1)
 
 
 def mistake_inverse_ratio(hips: Array, ratio: float, low_s: float, low_t: float, centre: Array) -> object:
+    """Scale by 1 / ratio."""
     return right_scaled_root(hips, 1 / ratio, low_s, low_t, centre)
 
 
@@ -69,30 +75,37 @@ same_bone_turn = close_rotations
 
 
 def mistake_source_not_inverted(source: Array, target: Array, turn: Array) -> object:
+    """Return R_source A R_target."""
     return reduce(multiply, (source, turn, target))
 
 
 def mistake_turn_on_the_right(source: Array, target: Array, turn: Array) -> object:
+    """Return R_source⁻¹ R_target A."""
     return reduce(multiply, (inverse(source), target, turn))
 
 
 def mistake_no_turn(source: Array, target: Array, turn: Array) -> object:
+    """Return R_source⁻¹ R_target."""
     return reduce(multiply, (inverse(source), target))
 
 
 def mistake_no_target(source: Array, target: Array, turn: Array) -> object:
+    """Return R_source⁻¹ A."""
     return reduce(multiply, (inverse(source), turn))
 
 
 def mistake_source_on_the_right(source: Array, target: Array, turn: Array) -> object:
+    """Return A R_target R_source⁻¹."""
     return reduce(multiply, (turn, target, inverse(source)))
 
 
 def mistake_inverted(source: Array, target: Array, turn: Array) -> object:
+    """Return C⁻¹ = R_target⁻¹ A⁻¹ R_source."""
     return inverse(right_bone_turn(source, target, turn))
 
 
 def mistake_turn_inverted(source: Array, target: Array, turn: Array) -> object:
+    """Return R_source⁻¹ A⁻¹ R_target."""
     return reduce(multiply, (inverse(source), inverse(turn), target))
 
 
@@ -112,18 +125,22 @@ def right_design_row(u: float) -> Array:
 
 
 def mistake_not_divided(u: float) -> object:
+    """Return the basis functions times 6, which add up to 6."""
     return 6 * right_design_row(u)
 
 
 def mistake_reversed_weights(u: float) -> object:
+    """Return the four weights with the latest control point first."""
     return right_design_row(u)[::-1]
 
 
 def mistake_copied_weights(u: float) -> object:
+    """Return the first two weights, followed by the same two in reverse order."""
     return right_design_row(u)[[0, 1, 1, 0]]
 
 
 def mistake_catmull_rom(u: float) -> object:
+    """Return the weights of a Catmull-Rom spline, which interpolates its control points."""
     first = -u + 2 * u**2 - u**3
     second = 2 - 5 * u**2 + 3 * u**3
     third = u + 4 * u**2 - 3 * u**3
@@ -131,10 +148,12 @@ def mistake_catmull_rom(u: float) -> object:
 
 
 def mistake_bernstein(u: float) -> object:
+    """Return the cubic Bernstein polynomials, the weights of a Bézier curve."""
     second = 3 * u * (1 - u) ** 2
     third = 3 * u**2 * (1 - u)
     return np.array([(1 - u) ** 3, second, third, u**3])
 
 
 def mistake_linear(u: float) -> object:
+    """Return the weights of linear interpolation between the two middle control points."""
     return np.array([0, 1 - u, u, 0])

@@ -23,36 +23,44 @@ def right_clip_gap(p: Array, low: Array, high: Array) -> Array:
 
 
 def mistake_opposite_gap(p: Array, low: Array, high: Array) -> object:
+    """Return the vector from the nearest point of the box to p."""
     return p - np.clip(p, low, high)
 
 
 def mistake_nearest_point(p: Array, low: Array, high: Array) -> object:
+    """Return the nearest point of the box itself."""
     return np.clip(p, low, high)
 
 
 def mistake_middle_of_box(p: Array, low: Array, high: Array) -> object:
+    """Return the vector to the middle of the box on axes with two finite ends, and 0 on the others."""
     is_bounded = np.isfinite(high - low)
     middle = np.nan_to_num(low) / 2 + np.nan_to_num(high) / 2
     return np.where(is_bounded, middle - p, 0.0)
 
 
 def mistake_floor_alone(p: Array, low: Array, high: Array) -> object:
+    """Return the vector up to the lower ends, max(low - p, 0), as if no upper end existed."""
     return np.maximum(low - p, 0.0)
 
 
 def mistake_ceiling_alone(p: Array, low: Array, high: Array) -> object:
+    """Return the vector down to the upper ends, min(high - p, 0), as if no lower end existed."""
     return np.minimum(high - p, 0.0)
 
 
 def mistake_held_axis_free(p: Array, low: Array, high: Array) -> object:
+    """Return 0 on axes whose lower and upper ends are equal, and the right gap on the others."""
     return np.where(low == high, 0.0, right_clip_gap(p, low, high))
 
 
 def mistake_size_alone(p: Array, low: Array, high: Array) -> object:
+    """Return the absolute value of the right gap on each axis."""
     return np.abs(right_clip_gap(p, low, high))
 
 
 def mistake_nearer_end(p: Array, low: Array, high: Array) -> object:
+    """Return the vector to the nearer end of the box on each axis, also from inside."""
     is_low_nearer = np.abs(low - p) < np.abs(high - p)
     return np.where(is_low_nearer, low - p, high - p)
 
@@ -74,26 +82,32 @@ def right_position_slope(joint: Array, end: Array, axis: Array, turn: Array) -> 
 
 
 def mistake_opposite_slope(joint: Array, end: Array, axis: Array, turn: Array) -> object:
+    """Return minus the derivative, arm × axis."""
     return -right_position_slope(joint, end, axis, turn)
 
 
 def mistake_axis_not_turned(joint: Array, end: Array, axis: Array, turn: Array) -> object:
+    """Return axis × arm with the axis in the joint's frame and the arm in the world's."""
     return np.cross(axis, end - joint)
 
 
 def mistake_axis_turned_backwards(joint: Array, end: Array, axis: Array, turn: Array) -> object:
+    """Return axis × arm with the axis rotated by the inverse (transposed) rotation."""
     return np.cross(turn.swapaxes(1, 2) @ axis, end - joint)
 
 
 def mistake_from_origin(joint: Array, end: Array, axis: Array, turn: Array) -> object:
+    """Return axis × end, with the arm measured from the origin."""
     return np.cross(turn @ axis, end)
 
 
 def mistake_product_turned(joint: Array, end: Array, axis: Array, turn: Array) -> object:
+    """Rotate the product of the axis in the joint's frame and the arm in the world's frame."""
     return (turn @ np.cross(axis, end - joint)[..., None])[..., 0]
 
 
 def mistake_direction_alone(joint: Array, end: Array, axis: Array, turn: Array) -> object:
+    """Return the derivative divided by its length."""
     correct = right_position_slope(joint, end, axis, turn)
     return correct / np.linalg.norm(correct, axis=1, keepdims=True)
 
@@ -119,6 +133,7 @@ def right_local_fit(weights: Array, data: Array) -> Array:
 
 
 def mistake_weighted_by_w(weights: Array, data: Array) -> object:
+    """Return Σ w β / Σ w, the mean of the single data's heights β weighted by w."""
     squares = (weights**2).sum(axis=1, keepdims=True)
     alone = np.divide(weights * data[:, None], squares, out=np.zeros_like(weights), where=squares > 0)
     above = (weights * alone).sum(axis=0)
@@ -127,6 +142,7 @@ def mistake_weighted_by_w(weights: Array, data: Array) -> object:
 
 
 def mistake_sum_over_data(weights: Array, data: Array) -> object:
+    """Return Σ w² β / Σ w², with β = w d / Σ w² where this sum runs over the data, not the splines."""
     squares = (weights**2).sum(axis=0, keepdims=True)
     alone = np.divide(weights * data[:, None], squares, out=np.zeros_like(weights), where=squares > 0)
     above = (weights**2 * alone).sum(axis=0)
@@ -135,18 +151,22 @@ def mistake_sum_over_data(weights: Array, data: Array) -> object:
 
 
 def mistake_nan_without_data(weights: Array, data: Array) -> object:
+    """Return NaN in place of 0 where no datum is near a control point."""
     return np.where(weights.any(axis=0), right_local_fit(weights, data), np.nan)
 
 
 def mistake_mean_of_data(weights: Array, data: Array) -> object:
+    """Return Σ w d / Σ w, the weighted mean of the data near each control point."""
     above = (weights * data[:, None]).sum(axis=0)
     below = weights.sum(axis=0)
     return np.divide(above, below, out=np.zeros_like(above), where=below > 0)
 
 
 def mistake_least_squares(weights: Array, data: Array) -> object:
+    """Return the control points that fit all data at once by least squares, of minimum norm."""
     return np.linalg.lstsq(weights, data, rcond=None)[0]
 
 
 def mistake_plain_mean(weights: Array, data: Array) -> object:
+    """Return the mean of β = w d / Σ w² over all N data, those of weight 0 included."""
     return (weights * data[:, None] / (weights**2).sum(axis=1, keepdims=True)).mean(axis=0)

@@ -35,6 +35,7 @@ def right_next_row(diagonal: Array, best: Array, costs: Array) -> Array:
 
 
 def mistake_diagonal_counted_once(diagonal: Array, best: Array, costs: Array) -> object:
+    """Add the cost of a cell once, not twice, after a diagonal step."""
     diagonal_sums = costs + shifted(best)
     return np.array(
         [
@@ -45,6 +46,7 @@ def mistake_diagonal_counted_once(diagonal: Array, best: Array, costs: Array) ->
 
 
 def mistake_rolled(diagonal: Array, best: Array, costs: Array) -> object:
+    """Let the last column's best sum enter column 0 by a diagonal step."""
     diagonal_sums = 2 * costs + np.roll(best, 1)
     return np.array(
         [
@@ -55,6 +57,7 @@ def mistake_rolled(diagonal: Array, best: Array, costs: Array) -> object:
 
 
 def mistake_from_diagonal_alone(diagonal: Array, best: Array, costs: Array) -> object:
+    """Allow a diagonal step only after another diagonal step."""
     diagonal_sums = 2 * costs + shifted(diagonal)
     return np.array(
         [
@@ -65,6 +68,7 @@ def mistake_from_diagonal_alone(diagonal: Array, best: Array, costs: Array) -> o
 
 
 def mistake_two_steps_down(diagonal: Array, best: Array, costs: Array) -> object:
+    """Allow a step down after any step: it adds the cost to the best sum of the row above."""
     diagonal_sums = 2 * costs + shifted(best)
     return np.array(
         [diagonal_sums, np.minimum(np.minimum(diagonal_sums, costs + best), costs + shifted(diagonal_sums))]
@@ -72,6 +76,7 @@ def mistake_two_steps_down(diagonal: Array, best: Array, costs: Array) -> object
 
 
 def mistake_right_from_above(diagonal: Array, best: Array, costs: Array) -> object:
+    """Let a step to the right add its cost to the diagonal sum of the row above, one column to the left."""
     diagonal_sums = 2 * costs + shifted(best)
     return np.array(
         [diagonal_sums, np.minimum(np.minimum(diagonal_sums, costs + diagonal), costs + shifted(diagonal))]
@@ -79,6 +84,7 @@ def mistake_right_from_above(diagonal: Array, best: Array, costs: Array) -> obje
 
 
 def mistake_no_step_to_the_right(diagonal: Array, best: Array, costs: Array) -> object:
+    """Return as the best sums the smaller of those after a diagonal step and a step down."""
     diagonal_sums = 2 * costs + shifted(best)
     return np.array([diagonal_sums, np.minimum(diagonal_sums, costs + diagonal)])
 
@@ -106,6 +112,7 @@ def right_ground_step(
 def mistake_heading_added(
     heading: float, place: complex, turns: Array, moves: Points, weights: Array
 ) -> object:
+    """Add the weighted mean of Δθ to φ instead of subtracting it."""
     new_heading = heading + float(weights @ (turns[1] - turns[0]))
     angles = 0.5 * (turns[0] + heading) + 0.5 * (turns[1] + new_heading)
     return new_heading, complex(place + weights @ (np.exp(1j * angles) * moves))
@@ -114,6 +121,7 @@ def mistake_heading_added(
 def mistake_heading_left_out(
     heading: float, place: complex, turns: Array, moves: Points, weights: Array
 ) -> object:
+    """Rotate each move by the clip's mean angle θ without the blend's φ."""
     new_heading = heading - float(weights @ (turns[1] - turns[0]))
     angles = turns.mean(axis=0)
     return new_heading, complex(place + weights @ (np.exp(1j * angles) * moves))
@@ -122,6 +130,7 @@ def mistake_heading_left_out(
 def mistake_moves_not_turned(
     heading: float, place: complex, turns: Array, moves: Points, weights: Array
 ) -> object:
+    """Add the weighted mean of the moves as they were captured."""
     new_heading = heading - float(weights @ (turns[1] - turns[0]))
     return new_heading, complex(place + weights @ moves)
 
@@ -129,6 +138,7 @@ def mistake_moves_not_turned(
 def mistake_turned_backwards(
     heading: float, place: complex, turns: Array, moves: Points, weights: Array
 ) -> object:
+    """Rotate each move by exp(-i angle), with the right mean angle."""
     new_heading = heading - float(weights @ (turns[1] - turns[0]))
     angles = 0.5 * (turns[0] + heading) + 0.5 * (turns[1] + new_heading)
     return new_heading, complex(place + weights @ (np.exp(-1j * angles) * moves))
@@ -137,6 +147,7 @@ def mistake_turned_backwards(
 def mistake_first_frame(
     heading: float, place: complex, turns: Array, moves: Points, weights: Array
 ) -> object:
+    """Rotate each move by θ + φ of the first frame."""
     new_heading = heading - float(weights @ (turns[1] - turns[0]))
     angles = turns[0] + heading
     return new_heading, complex(place + weights @ (np.exp(1j * angles) * moves))
@@ -145,12 +156,14 @@ def mistake_first_frame(
 def mistake_second_frame(
     heading: float, place: complex, turns: Array, moves: Points, weights: Array
 ) -> object:
+    """Rotate each move by θ + φ of the second frame."""
     new_heading = heading - float(weights @ (turns[1] - turns[0]))
     angles = turns[1] + new_heading
     return new_heading, complex(place + weights @ (np.exp(1j * angles) * moves))
 
 
 def mistake_mean_angle(heading: float, place: complex, turns: Array, moves: Points, weights: Array) -> object:
+    """Rotate all moves by the weighted mean of the clips' angles."""
     new_heading = heading - float(weights @ (turns[1] - turns[0]))
     angles = 0.5 * (turns[0] + heading) + 0.5 * (turns[1] + new_heading)
     return new_heading, complex(place + weights @ (np.exp(1j * (weights @ angles)) * moves))
@@ -159,6 +172,7 @@ def mistake_mean_angle(heading: float, place: complex, turns: Array, moves: Poin
 def mistake_equal_weights_of_turns(
     heading: float, place: complex, turns: Array, moves: Points, weights: Array
 ) -> object:
+    """Subtract the unweighted mean of Δθ from φ."""
     new_heading = heading - float(np.mean(turns[1] - turns[0]))
     angles = 0.5 * (turns[0] + heading) + 0.5 * (turns[1] + new_heading)
     return new_heading, complex(place + weights @ (np.exp(1j * angles) * moves))
@@ -167,6 +181,7 @@ def mistake_equal_weights_of_turns(
 def mistake_equal_weights_of_moves(
     heading: float, place: complex, turns: Array, moves: Points, weights: Array
 ) -> object:
+    """Add the unweighted mean of the rotated moves."""
     new_heading = heading - float(weights @ (turns[1] - turns[0]))
     angles = 0.5 * (turns[0] + heading) + 0.5 * (turns[1] + new_heading)
     return new_heading, complex(place + np.mean(np.exp(1j * angles) * moves))

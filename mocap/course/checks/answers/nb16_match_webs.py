@@ -49,6 +49,7 @@ def same_spread(answer: Any, wanted: list[int]) -> bool:  # noqa: ANN401
 
 
 def mistake_single_step(query: int, matches_of: MatchesOf, is_same: Callable[[int, int], bool]) -> object:
+    """Return the query and its own new matches, without those of the matches."""
     matches = [query]
     asking = [query]
     if asking:
@@ -62,10 +63,12 @@ def mistake_single_step(query: int, matches_of: MatchesOf, is_same: Callable[[in
 
 
 def mistake_without_query(query: int, matches_of: MatchesOf, is_same: Callable[[int, int], bool]) -> object:
+    """Return the right matches without the query."""
     return right_spread(query, matches_of, is_same)[1:]
 
 
 def mistake_query_twice(query: int, matches_of: MatchesOf, is_same: Callable[[int, int], bool]) -> object:
+    """Compare a find with all matches but the query, which can therefore be found again."""
     matches = [query]
     asking = [query]
     while asking:
@@ -79,6 +82,7 @@ def mistake_query_twice(query: int, matches_of: MatchesOf, is_same: Callable[[in
 
 
 def mistake_farthest_first(query: int, matches_of: MatchesOf, is_same: Callable[[int, int], bool]) -> object:
+    """Take the finds of each step by falling cost, so that of two similar ones the farther is kept."""
     matches = [query]
     asking = [query]
     while asking:
@@ -102,72 +106,68 @@ def draw_neighbour_weights(rng: np.random.Generator) -> Arguments:
     return (distances,)
 
 
+def normalised(weights: Array) -> Array:
+    """Divide weights by their sum; those of which one is infinite become NaN or 0."""
+    with np.errstate(invalid="ignore"):
+        return np.asarray(weights / weights.sum())
+
+
+def inverses(distances: Array) -> Array:
+    """Return 1 / d, infinite for a sample at distance 0."""
+    with np.errstate(divide="ignore"):
+        return np.asarray(1 / distances)
+
+
+def hit_gets_all(distances: Array, weights: Array) -> Array:
+    """Give the first sample the weight 1 and the others 0 if its distance is 0; else return the weights."""
+    return np.eye(len(distances))[0] if distances[0] == 0 else weights
+
+
 def right_neighbour_weights(distances: Array) -> Array:
     """Weigh samples by 1 / d - 1 / d_k; one that is hit gets all."""
-    with np.errstate(all="ignore"):
-        weights = 1 / distances - 1 / distances[-1]
-        weights = weights / weights.sum()
-    return np.asarray(np.eye(len(distances))[0] if distances[0] == 0 else weights)
+    return hit_gets_all(distances, normalised(inverses(distances) - 1 / distances[-1]))
 
 
 def mistake_hit_forgotten(distances: Array) -> object:
-    with np.errstate(all="ignore"):
-        weights = 1 / distances - 1 / distances[-1]
-        weights = weights / weights.sum()
-    return np.eye(len(distances))[0] if False else weights
+    """Return the normalised 1 / d - 1 / d_k, NaN for a sample at distance 0."""
+    return normalised(inverses(distances) - 1 / distances[-1])
 
 
 def mistake_last_not_subtracted(distances: Array) -> object:
-    with np.errstate(all="ignore"):
-        weights = 1 / distances
-        weights = weights / weights.sum()
-    return np.eye(len(distances))[0] if distances[0] == 0 else weights
+    """Return the normalised 1 / d; a sample at distance 0 gets weight 1."""
+    return hit_gets_all(distances, normalised(inverses(distances)))
 
 
 def mistake_last_not_subtracted_hit_forgotten(distances: Array) -> object:
-    with np.errstate(all="ignore"):
-        weights = 1 / distances
-        weights = weights / weights.sum()
-    return np.eye(len(distances))[0] if False else weights
+    """Return the normalised 1 / d, NaN for a sample at distance 0."""
+    return normalised(inverses(distances))
 
 
 def mistake_squared_distances(distances: Array) -> object:
-    with np.errstate(all="ignore"):
-        weights = 1 / distances**2
-        weights = weights / weights.sum()
-    return np.eye(len(distances))[0] if distances[0] == 0 else weights
+    """Return the normalised 1 / d²; a sample at distance 0 gets weight 1."""
+    return hit_gets_all(distances, normalised(inverses(distances**2)))
 
 
 def mistake_squared_distances_hit_forgotten(distances: Array) -> object:
-    with np.errstate(all="ignore"):
-        weights = 1 / distances**2
-        weights = weights / weights.sum()
-    return np.eye(len(distances))[0] if False else weights
+    """Return the normalised 1 / d², NaN for a sample at distance 0."""
+    return normalised(inverses(distances**2))
 
 
 def mistake_not_normalised(distances: Array) -> object:
-    with np.errstate(all="ignore"):
-        weights = 1 / distances - 1 / distances[-1]
-        weights = weights
-    return np.eye(len(distances))[0] if distances[0] == 0 else weights
+    """Return 1 / d - 1 / d_k without dividing by the sum; a sample at distance 0 gets weight 1."""
+    return hit_gets_all(distances, inverses(distances) - 1 / distances[-1])
 
 
 def mistake_not_normalised_hit_forgotten(distances: Array) -> object:
-    with np.errstate(all="ignore"):
-        weights = 1 / distances - 1 / distances[-1]
-        weights = weights
-    return np.eye(len(distances))[0] if False else weights
+    """Return 1 / d - 1 / d_k without dividing by the sum, infinite for a sample at distance 0."""
+    return inverses(distances) - 1 / distances[-1]
 
 
 def mistake_differences(distances: Array) -> object:
-    with np.errstate(all="ignore"):
-        weights = distances[-1] - distances
-        weights = weights / weights.sum()
-    return np.eye(len(distances))[0] if distances[0] == 0 else weights
+    """Return the normalised d_k - d; a sample at distance 0 gets weight 1."""
+    return hit_gets_all(distances, normalised(distances[-1] - distances))
 
 
 def mistake_differences_hit_forgotten(distances: Array) -> object:
-    with np.errstate(all="ignore"):
-        weights = distances[-1] - distances
-        weights = weights / weights.sum()
-    return np.eye(len(distances))[0] if False else weights
+    """Return the normalised d_k - d, also for a sample at distance 0."""
+    return normalised(distances[-1] - distances)

@@ -40,31 +40,37 @@ def right_mixed_trajectory(speeds: Points, turnings: Array, weights: Array, dt: 
 
 
 def mistake_positions_mixed(speeds: Points, turnings: Array, weights: Array, dt: float) -> object:
+    """Integrate each walk by itself, and return the weighted mean of the positions."""
     clips = np.eye(3)
     tracks = [right_mixed_trajectory(speeds, turnings, clip, dt) for clip in clips]
     return weights @ np.array(tracks)
 
 
 def mistake_heading_half_way(speeds: Points, turnings: Array, weights: Array, dt: float) -> object:
+    """Take each step along the mean of the headings before and after it."""
     heading = np.append(0, np.cumsum(weights @ turnings * dt))
     middle = (heading[:-1] + heading[1:]) / 2
     return np.append(0, np.cumsum(weights @ speeds * np.exp(1j * middle) * dt))
 
 
 def mistake_turns_first(speeds: Points, turnings: Array, weights: Array, dt: float) -> object:
+    """Take each step along the heading after it."""
     heading = np.append(0, np.cumsum(weights @ turnings * dt))
     return np.append(0, np.cumsum(weights @ speeds * np.exp(1j * heading[1:]) * dt))
 
 
 def mistake_never_turns(speeds: Points, turnings: Array, weights: Array, dt: float) -> object:
+    """Take all steps along the heading 0."""
     return right_mixed_trajectory(speeds, 0 * turnings, weights, dt)
 
 
 def mistake_largest_weight_alone(speeds: Points, turnings: Array, weights: Array, dt: float) -> object:
+    """Integrate the walk of the largest weight alone."""
     return right_mixed_trajectory(speeds, turnings, np.eye(3)[weights.argmax()], dt)
 
 
 def mistake_first_position_missing(speeds: Points, turnings: Array, weights: Array, dt: float) -> object:
+    """Return the T positions after the steps, without the 0 before them."""
     return right_mixed_trajectory(speeds, turnings, weights, dt)[1:]
 
 
@@ -88,22 +94,27 @@ def right_shrink_box(good: Array, bad: Array, scale: Array, eps: float) -> tuple
 
 
 def mistake_outside_not_kept_off(good: Array, bad: Array, scale: Array, eps: float) -> object:
+    """Shrink the box only for bad targets inside it, not for those within the margin outside."""
     return shrunk(good, bad, eps * scale, reach=0 * scale, unit=scale)
 
 
 def mistake_good_alone(good: Array, bad: Array, scale: Array, eps: float) -> object:
-    return (good.min(axis=0), good.max(axis=0))
+    """Return the bounding box of the good targets."""
+    return good.min(axis=0), good.max(axis=0)
 
 
 def mistake_not_scaled(good: Array, bad: Array, scale: Array, eps: float) -> object:
+    """Move the side that loses least in the targets' own units, degrees and m/s."""
     return shrunk(good, bad, eps * scale, reach=eps * scale, unit=np.ones_like(scale))
 
 
 def mistake_no_margin(good: Array, bad: Array, scale: Array, eps: float) -> object:
+    """Shrink the box to the bad targets with eps = 0, so that they are on its sides."""
     return right_shrink_box(good, bad, scale, 0.0)
 
 
 def mistake_worst_side(good: Array, bad: Array, scale: Array, eps: float) -> object:
+    """Move, for each bad target, the side that loses most."""
     return shrunk(good, bad, eps * scale, reach=eps * scale, unit=-scale)
 
 
@@ -129,10 +140,12 @@ def right_box_at(request: float, sources: Array, low: Array, high: Array, k: int
 
 
 def mistake_sources_sorted(request: float, sources: Array, low: Array, high: Array, k: int) -> object:
+    """Sort the sources but not their boxes, so that the weights multiply boxes of other samples."""
     return right_box_at(request, np.sort(sources), low, high, k)
 
 
 def mistake_last_not_subtracted(request: float, sources: Array, low: Array, high: Array, k: int) -> object:
+    """Weight the k nearest samples by 1 / d."""
     nearest = np.argsort(np.abs(sources - request))[:k]
     gaps = np.abs(sources - request)[nearest]
     weights = 1 / gaps
@@ -141,6 +154,7 @@ def mistake_last_not_subtracted(request: float, sources: Array, low: Array, high
 
 
 def mistake_nearest_subtracted(request: float, sources: Array, low: Array, high: Array, k: int) -> object:
+    """Weight the k nearest samples by 1 / d - 1 / d_1, which is 0 for the nearest."""
     nearest = np.argsort(np.abs(sources - request))[:k]
     gaps = np.abs(sources - request)[nearest]
     weights = 1 / gaps - 1 / gaps[0]
@@ -149,21 +163,22 @@ def mistake_nearest_subtracted(request: float, sources: Array, low: Array, high:
 
 
 def mistake_not_normalised(request: float, sources: Array, low: Array, high: Array, k: int) -> object:
+    """Weight the k nearest samples by 1 / d - 1 / d_k without dividing by the sum of the weights."""
     nearest = np.argsort(np.abs(sources - request))[:k]
     gaps = np.abs(sources - request)[nearest]
     weights = 1 / gaps - 1 / gaps[-1]
-    weights = weights
     return float(weights @ low[nearest]), float(weights @ high[nearest])
 
 
 def mistake_weighted_by_distance(request: float, sources: Array, low: Array, high: Array, k: int) -> object:
+    """Weight the k nearest samples by d."""
     nearest = np.argsort(np.abs(sources - request))[:k]
     gaps = np.abs(sources - request)[nearest]
-    weights = gaps
-    weights = weights / weights.sum()
+    weights = gaps / gaps.sum()
     return float(weights @ low[nearest]), float(weights @ high[nearest])
 
 
 def mistake_nearest_alone(request: float, sources: Array, low: Array, high: Array, k: int) -> object:
+    """Return the box of the nearest sample."""
     nearest = int(np.abs(sources - request).argmin())
     return float(low[nearest]), float(high[nearest])

@@ -30,6 +30,7 @@ def right_standardise(values: Array, groups: list[slice], weights: list[float]) 
 
 
 def mistake_scale_of_each_column(values: Array, groups: list[slice], weights: list[float]) -> object:
+    """Divide each column by its own standard deviation."""
     centred = values - values.mean(axis=0)
     scaled = centred.copy()
     for columns, weight in zip(groups, weights, strict=True):
@@ -39,6 +40,7 @@ def mistake_scale_of_each_column(values: Array, groups: list[slice], weights: li
 
 
 def mistake_scale_of_all_groups(values: Array, groups: list[slice], weights: list[float]) -> object:
+    """Divide each group by the mean standard deviation of the columns of all groups."""
     centred = values - values.mean(axis=0)
     scaled = centred.copy()
     for columns, weight in zip(groups, weights, strict=True):
@@ -48,15 +50,16 @@ def mistake_scale_of_all_groups(values: Array, groups: list[slice], weights: lis
 
 
 def mistake_mean_kept(values: Array, groups: list[slice], weights: list[float]) -> object:
-    centred = values
-    scaled = centred.copy()
+    """Divide and weight the groups without subtracting the columns' means."""
+    scaled = values.copy()
     for columns, weight in zip(groups, weights, strict=True):
-        group = centred[:, columns]
+        group = values[:, columns]
         scaled[:, columns] = group / group.std(axis=0).mean() * weight
     return scaled
 
 
 def mistake_divided_by_weight(values: Array, groups: list[slice], weights: list[float]) -> object:
+    """Divide each group by its weight instead of multiplying."""
     centred = values - values.mean(axis=0)
     scaled = centred.copy()
     for columns, weight in zip(groups, weights, strict=True):
@@ -66,6 +69,7 @@ def mistake_divided_by_weight(values: Array, groups: list[slice], weights: list[
 
 
 def mistake_variance(values: Array, groups: list[slice], weights: list[float]) -> object:
+    """Divide each group by the mean variance of its columns."""
     centred = values - values.mean(axis=0)
     scaled = centred.copy()
     for columns, weight in zip(groups, weights, strict=True):
@@ -75,6 +79,7 @@ def mistake_variance(values: Array, groups: list[slice], weights: list[float]) -
 
 
 def mistake_deviation_of_all_numbers(values: Array, groups: list[slice], weights: list[float]) -> object:
+    """Divide each group by the standard deviation of all its numbers together."""
     centred = values - values.mean(axis=0)
     scaled = centred.copy()
     for columns, weight in zip(groups, weights, strict=True):
@@ -84,6 +89,7 @@ def mistake_deviation_of_all_numbers(values: Array, groups: list[slice], weights
 
 
 def mistake_weights_unused(values: Array, groups: list[slice], weights: list[float]) -> object:
+    """Divide each group by its mean spread, with all weights 1."""
     return right_standardise(values, groups, [1.0] * len(groups))
 
 
@@ -103,26 +109,32 @@ def right_spring_after(x: float, v: float, goal: float, halflife: float, t: floa
 
 
 def mistake_plain_decay(x: float, v: float, goal: float, halflife: float, t: float) -> object:
+    """Return goal + (x - goal) 2^(-t / halflife), an exponential decay without velocity."""
     return goal + (x - goal) * 2 ** (-t / halflife)
 
 
 def mistake_velocity_dropped(x: float, v: float, goal: float, halflife: float, t: float) -> object:
+    """Return the position of a spring that starts at rest."""
     return spring(x, 0.0, goal, halflife, t)
 
 
 def mistake_half_of_decay(x: float, v: float, goal: float, halflife: float, t: float) -> object:
+    """Return the position of a spring with y = ln 2 / halflife, half of the right decay rate."""
     return spring(x, v, goal, 2 * halflife, t)
 
 
 def mistake_no_pull(x: float, v: float, goal: float, halflife: float, t: float) -> object:
+    """Return the position of a spring with j₁ = v instead of v + j₀ y."""
     return spring(x, v - 2 * np.log(2) / halflife * (x - goal), goal, halflife, t)
 
 
 def mistake_ends_at_zero(x: float, v: float, goal: float, halflife: float, t: float) -> object:
+    """Return the position of a spring whose goal is 0."""
     return spring(x, v, 0.0, halflife, t)
 
 
 def mistake_gap_alone(x: float, v: float, goal: float, halflife: float, t: float) -> object:
+    """Return the position relative to the goal."""
     return right_spring_after(x, v, goal, halflife, t) - goal
 
 
@@ -152,6 +164,7 @@ def right_next_frame(costs: Array, usable: Mask, current: int, least_distance: i
 def mistake_unusable_frames(
     costs: Array, usable: Mask, current: int, least_distance: int, bonus: float
 ) -> object:
+    """Choose the best frame that is not near, usable or not."""
     frames = np.arange(len(costs))
     candidates = np.flatnonzero(np.abs(frames - current) >= least_distance)
     best = int(candidates[costs[candidates].argmin()])
@@ -161,6 +174,7 @@ def mistake_unusable_frames(
 def mistake_near_frames(
     costs: Array, usable: Mask, current: int, least_distance: int, bonus: float
 ) -> object:
+    """Choose the best usable frame, near or not."""
     candidates = np.flatnonzero(usable)
     best = int(candidates[costs[candidates].argmin()])
     return current if costs[best] + bonus >= costs[current] else best
@@ -169,6 +183,7 @@ def mistake_near_frames(
 def mistake_exactly_near_excluded(
     costs: Array, usable: Mask, current: int, least_distance: int, bonus: float
 ) -> object:
+    """Choose the best usable frame more than `least_distance` frames away."""
     frames = np.arange(len(costs))
     candidates = np.flatnonzero(usable & (np.abs(frames - current) > least_distance))
     best = int(candidates[costs[candidates].argmin()])
@@ -176,18 +191,21 @@ def mistake_exactly_near_excluded(
 
 
 def mistake_no_bonus(costs: Array, usable: Mask, current: int, least_distance: int, bonus: float) -> object:
+    """Cut as soon as the best candidate has a lower cost than the current frame."""
     return right_next_frame(costs, usable, current, least_distance, 0.0)
 
 
 def mistake_negative_bonus(
     costs: Array, usable: Mask, current: int, least_distance: int, bonus: float
 ) -> object:
+    """Cut even if the best candidate costs more than the current frame, by less than the bonus."""
     return right_next_frame(costs, usable, current, least_distance, -bonus)
 
 
 def mistake_index_among_candidates(
     costs: Array, usable: Mask, current: int, least_distance: int, bonus: float
 ) -> object:
+    """Return the index of the best frame in the list of candidates."""
     frames = np.arange(len(costs))
     candidates = np.flatnonzero(usable & (np.abs(frames - current) >= least_distance))
     best = int(candidates[costs[candidates].argmin()])
@@ -197,6 +215,7 @@ def mistake_index_among_candidates(
 def mistake_always_cuts(
     costs: Array, usable: Mask, current: int, least_distance: int, bonus: float
 ) -> object:
+    """Return the best candidate, also if the current frame costs less."""
     frames = np.arange(len(costs))
     candidates = np.flatnonzero(usable & (np.abs(frames - current) >= least_distance))
     return int(candidates[costs[candidates].argmin()])

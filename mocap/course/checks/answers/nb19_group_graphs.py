@@ -35,26 +35,32 @@ def right_assign(a: Points, b: Points) -> Indices:
 
 
 def mistake_nearest_of_each(a: Points, b: Points) -> object:
+    """Return the nearest member of b for each member of a; several may get the same one."""
     return np.argmin(abs(a[:, None] - b), axis=1)
 
 
 def mistake_numbers_kept(a: Points, b: Points) -> object:
+    """Return the identity: member n of a is member n of b."""
     return np.arange(len(a))
 
 
 def mistake_from_b_to_a(a: Points, b: Points) -> object:
+    """Return the inverse of the right assignment, from b to a."""
     return np.argsort(right_assign(a, b))
 
 
 def mistake_greedy_pairs(a: Points, b: Points) -> object:
+    """Return the greedy assignment: the nearest pair first, then the nearest of the others."""
     return greedy(a, b)
 
 
 def mistake_sum_of_distances(a: Points, b: Points) -> object:
-    return linear_sum_assignment(abs(a[:, None] - b) ** 1)[1]
+    """Return the assignment with the least sum of distances."""
+    return linear_sum_assignment(abs(a[:, None] - b))[1]
 
 
 def mistake_greatest_sum(a: Points, b: Points) -> object:
+    """Return the assignment with the greatest sum of squared distances."""
     return linear_sum_assignment(abs(a[:, None] - b) ** 2, maximize=True)[1]
 
 
@@ -81,6 +87,7 @@ def right_lay_group(pa: Points, va: Points, pb: Points, vb: Points) -> tuple[com
 
 
 def mistake_not_centred(pa: Points, va: Points, pb: Points, vb: Points) -> object:
+    """Find the rotation from the positions without subtracting the groups' means."""
     positions = (pa * pb.conj()).sum()
     cross = positions + 0.49 * (va * vb.conj()).sum()
     turn = complex(cross / abs(cross))
@@ -88,6 +95,7 @@ def mistake_not_centred(pa: Points, va: Points, pb: Points, vb: Points) -> objec
 
 
 def mistake_rotated_backwards(pa: Points, va: Points, pb: Points, vb: Points) -> object:
+    """Return the inverse (conjugate) rotation, and the translation that belongs to it."""
     positions = ((pa - pa.mean()) * (pb - pb.mean()).conj()).sum()
     cross = positions + 0.49 * (va * vb.conj()).sum()
     turn = complex(cross / abs(cross)).conjugate()
@@ -95,13 +103,14 @@ def mistake_rotated_backwards(pa: Points, va: Points, pb: Points, vb: Points) ->
 
 
 def mistake_no_velocities(pa: Points, va: Points, pb: Points, vb: Points) -> object:
+    """Find the rotation from the positions alone."""
     positions = ((pa - pa.mean()) * (pb - pb.mean()).conj()).sum()
-    cross = positions + 0.0 * (va * vb.conj()).sum()
-    turn = complex(cross / abs(cross))
+    turn = complex(positions / abs(positions))
     return turn, complex(pa.mean() - turn * pb.mean())
 
 
 def mistake_weight_tau(pa: Points, va: Points, pb: Points, vb: Points) -> object:
+    """Find the rotation with velocities weighted by τ = 0.7 instead of τ² = 0.49."""
     positions = ((pa - pa.mean()) * (pb - pb.mean()).conj()).sum()
     cross = positions + 0.7 * (va * vb.conj()).sum()
     turn = complex(cross / abs(cross))
@@ -109,13 +118,15 @@ def mistake_weight_tau(pa: Points, va: Points, pb: Points, vb: Points) -> object
 
 
 def mistake_weight_one(pa: Points, va: Points, pb: Points, vb: Points) -> object:
+    """Find the rotation with velocities weighted by 1."""
     positions = ((pa - pa.mean()) * (pb - pb.mean()).conj()).sum()
-    cross = positions + 1.0 * (va * vb.conj()).sum()
+    cross = positions + (va * vb.conj()).sum()
     turn = complex(cross / abs(cross))
     return turn, complex(pa.mean() - turn * pb.mean())
 
 
 def mistake_mean_not_rotated(pa: Points, va: Points, pb: Points, vb: Points) -> object:
+    """Return the difference of the mean positions as the translation, without the rotation."""
     positions = ((pa - pa.mean()) * (pb - pb.mean()).conj()).sum()
     cross = positions + 0.49 * (va * vb.conj()).sum()
     turn = complex(cross / abs(cross))
@@ -123,10 +134,12 @@ def mistake_mean_not_rotated(pa: Points, va: Points, pb: Points, vb: Points) -> 
 
 
 def mistake_velocities_centred(pa: Points, va: Points, pb: Points, vb: Points) -> object:
+    """Find the rotation with the mean velocity of each group subtracted."""
     return right_lay_group(pa, va - va.mean(), pb, vb - vb.mean())
 
 
 def mistake_not_unit_length(pa: Points, va: Points, pb: Points, vb: Points) -> object:
+    """Return the complex sum without dividing it by its length, and the translation that belongs to it."""
     positions = ((pa - pa.mean()) * (pb - pb.mean()).conj()).sum()
     cross = positions + 0.49 * (va * vb.conj()).sum()
     turn = complex(cross)
@@ -149,24 +162,30 @@ def right_slots(orders: Indices) -> Indices:
 
 
 def mistake_members_in_slots(orders: Indices) -> object:
+    """Return the inverse permutation: the member in each slot after all clips."""
     return np.argsort(right_slots(orders))
 
 
 def mistake_last_clip_first(orders: Indices) -> object:
+    """Apply the orders from the last clip to the first."""
     return reduce(lambda slots, order: slots[order], orders)
 
 
 def mistake_clips_backwards(orders: Indices) -> object:
+    """Apply the inverse of each order, from the first clip to the last."""
     return reduce(lambda slots, order: order[slots], np.argsort(orders, axis=1))
 
 
 def mistake_last_clip_alone(orders: Indices) -> object:
+    """Return the order of the last clip."""
     return orders[-1]
 
 
 def mistake_first_clip_alone(orders: Indices) -> object:
+    """Return the order of the first clip."""
     return orders[0]
 
 
 def mistake_not_moved(orders: Indices) -> object:
+    """Return the identity: each member in its slot before the first clip."""
     return np.arange(orders.shape[1])
