@@ -1,6 +1,7 @@
 from . import euler as euler
 from . import kinematics as kinematics
 from . import rotations as rotations
+from .concatenation import concatenate as concatenate
 from .ground_path import SHAPES as SHAPES
 from .ground_path import GroundPath as GroundPath
 from .ground_path import arcs as arcs
@@ -15,7 +16,6 @@ from .limbs import find_legs as find_legs
 from .limbs import name_leg as name_leg
 from .limbs import with_roles as with_roles
 from .motion import Motion as Motion
-from .motion import concatenate as concatenate
 from .motion import resample as resample
 from .planar import PlanarTransform as PlanarTransform
 from .planar import heading as heading
