@@ -14,15 +14,16 @@ Reading order (notebooks 01, 03)
  7. `planar`: planar rigid transforms, and the heading of a body
  8. `euler`: Euler angles, gimbal lock, and continuity over frames
  9. `ground_path`: paths on the ground, parametrised by arc length
-10. `limb_tree`: bones of constant length, and chains of them
-11. `limb_pairs`: pairs of limbs, mirror images by their lengths
-12. `limb_roles`: left and right, and the roles of the joints of a limb
-13. `limb_search`: legs and arms by bones and motion, whatever the names of joints
-14. `limbs`: legs and arms, the heading of the hips, and the role of each joint in a body
-15. `limb_partners`: joints of left and right limbs that are mirror images
-16. `body_sides`: left, right and the head, by names or roles
-17. `fingerprints`: hashes that identify a clip under any name
-18. `tuned`: the constants that trials chose
+10. `legs`: the joints of a leg, and the heading of the hips
+11. `limb_tree`: bones of constant length, and chains of them
+12. `limb_pairs`: pairs of limbs, mirror images by their lengths
+13. `limb_roles`: left and right, and the roles of the joints of a limb
+14. `limb_search`: legs and arms by bones and motion, whatever the names of joints
+15. `limbs`: legs and arms, and the role of each joint in a body
+16. `limb_partners`: joints of left and right limbs that are mirror images
+17. `body_sides`: left, right and the head, by names or roles
+18. `fingerprints`: hashes that identify a clip under any name
+19. `tuned`: the constants that trials chose
 
 References
 ----------

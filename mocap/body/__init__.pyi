@@ -11,9 +11,9 @@ from .ground_path import spline as spline
 from .joint_trees import velocities as velocities
 from .kinematics import forward_kinematics as forward_kinematics
 from .kinematics import joint_positions as joint_positions
-from .limbs import Leg as Leg
+from .legs import Leg as Leg
+from .legs import name_leg as name_leg
 from .limbs import find_legs as find_legs
-from .limbs import name_leg as name_leg
 from .limbs import with_roles as with_roles
 from .motion import Motion as Motion
 from .motion import resample as resample

@@ -7,7 +7,8 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, Mask
 from mocap.body import rotations
-from mocap.body.limbs import Leg, find_legs, with_roles
+from mocap.body.legs import Leg
+from mocap.body.limbs import find_legs, with_roles
 from mocap.body.motion import Motion, require_motion
 from mocap.editing.boxes import PositionBoxes, RelativeRotation, RotationBoxes
 from mocap.editing.constraint_checks import require_pins_of

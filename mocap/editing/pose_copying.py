@@ -14,7 +14,8 @@ from scipy.spatial.transform import Rotation
 from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import SIDES, heading_by_hips
+from mocap.body.legs import heading_by_hips
+from mocap.body.limbs import SIDES
 from mocap.body.motion import Motion
 from mocap.editing.poses import MotionOrPoses, Poses, poses_of
 from mocap.editing.stances import Stance

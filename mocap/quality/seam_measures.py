@@ -16,7 +16,8 @@ from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.concatenation import require_compatible
 from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import Leg, find_legs
+from mocap.body.legs import Leg
+from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import point_cloud
