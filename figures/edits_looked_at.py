@@ -31,7 +31,8 @@ import mocap
 from mocap import datasets, editing, feet
 from mocap._shared.arrays import Array, Indices
 from mocap.body import Motion, find_legs, joint_positions
-from mocap.body.limbs import Leg, with_roles
+from mocap.body.legs import Leg
+from mocap.body.limbs import with_roles
 from mocap.errors import MocapError
 from mocap.plotting.bodies import draw_body
 from mocap.plotting.style import COLOURS, FLOOR, QUIET

@@ -13,8 +13,8 @@ from . import quality as quality
 from . import steering as steering
 from . import synthesis as synthesis
 from . import widgets as widgets
+from .body.concatenation import concatenate as concatenate
 from .body.motion import Motion as Motion
-from .body.motion import concatenate as concatenate
 from .body.motion import resample as resample
 from .body.planar import PlanarTransform as PlanarTransform
 from .body.skeleton import Skeleton as Skeleton

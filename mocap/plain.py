@@ -483,7 +483,7 @@ def points_along(corners: Array) -> Ground:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Read clips and a line, and write a walk along it."""
     from mocap import MocapError, Motion, load, resample, save  # reads and checks files
-    from mocap.body.motion import require_compatible
+    from mocap.body.concatenation import require_compatible
     from mocap.files.conversion import find_files
     from mocap.files.path_files import load_path
 

@@ -35,7 +35,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 MODULES = {
-    "matching": "point_clouds distance_grids minima transitions",
+    "matching": "point_clouds prepared_clouds window_sums distance_grids minima transitions",
     "blending": "weights joining",
     "body": "planar rotations",
     "graphs": "components pruning compiled_graph edge_tables motion_graph",

@@ -76,7 +76,7 @@ def test_each_dotted_name_exists():
 
 
 PLACES = {
-    "diagonal_sum": "mocap/matching/distance_grids.py",
+    "diagonal_sum": "mocap/matching/window_sums.py",
     "METRICS": "mocap/matching/other_metrics.py",
     "READ": "mocap/files/formats.py",
     "refused_texts": "tests/refusals.py",

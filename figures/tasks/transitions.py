@@ -19,8 +19,8 @@ from mocap.blending import join
 from mocap.body import Motion
 from mocap.errors import MocapError
 from mocap.matching import distance_grid, local_minima
-from mocap.matching.distance_grids import diagonal_sum
 from mocap.matching.other_metrics import Metric, euler_grid, root_grid
+from mocap.matching.window_sums import diagonal_sum
 from mocap.quality import seam_quality, spread
 from tasks import BANDAI, HOMEWORK, WALKS, Case
 

@@ -12,8 +12,8 @@ import numpy as np
 from _trials import BUNDLED_WALKS, CAPTURED_WALKS, Clips, Row, Study, Trial
 from _walks import graph_of
 
+from mocap.body.concatenation import concatenate
 from mocap.body.kinematics import joint_positions
-from mocap.body.motion import concatenate
 from mocap.feet import clean_up
 from mocap.synthesis import tuned
 from mocap.synthesis.random_walks import cleaned, stream

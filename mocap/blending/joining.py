@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array
 from mocap.blending.weights import cubic_weights
 from mocap.body import rotations
-from mocap.body.motion import Motion, concatenate, gather_marks, require_compatible
+from mocap.body.concatenation import concatenate, gather_marks, require_compatible
+from mocap.body.motion import Motion
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import align, point_cloud
 

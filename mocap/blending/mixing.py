@@ -14,7 +14,8 @@ from mocap._shared.arrays import Array, Indices, Mask, Points
 from mocap._shared.records import NamedTuple
 from mocap.blending.clocks import Registration, Weights, frame_times, require_registration
 from mocap.body import rotations
-from mocap.body.motion import Motion, gather_marks, rotating_joints
+from mocap.body.concatenation import gather_marks
+from mocap.body.motion import Motion, rotating_joints
 from mocap.body.planar import from_ground, on_ground
 from mocap.errors import MocapError
 

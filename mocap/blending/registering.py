@@ -12,13 +12,14 @@ from mocap.blending.clocks import Registration, match_contacts
 from mocap.blending.mixing import mix
 from mocap.blending.timewarps import Curve, fit_curve
 from mocap.blending.tuned import TUNED
+from mocap.body.concatenation import require_compatible
 from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion, require_compatible
+from mocap.body.motion import Motion
 from mocap.body.planar import from_ground, on_ground
 from mocap.errors import MocapError, shortened, warn
 from mocap.matching.banded_paths import BandedPath, banded_path
-from mocap.matching.distance_grids import check_window
 from mocap.matching.point_clouds import align, point_cloud
+from mocap.matching.prepared_clouds import check_window
 
 PAIRS_TOGETHER = 4096  # pairs of windows that are aligned at a time, some 10 MB
 AS_NEAR = 1e-9  # metres beyond that, so that rounding does not decide for clips that are the same

@@ -6,22 +6,24 @@ other rooms build on this one.
 Reading order (notebooks 01, 03)
 --------------------------------
  1. `skeleton`: a tree of joints
- 2. `motion`: the pose in every frame, resampling, and concatenation
- 3. `rotations`: unit quaternions (w, x, y, z) as arrays: product, slerp, conversions
- 4. `joint_trees`: forward kinematics and velocities of arrays
- 5. `kinematics`: forward kinematics of a motion, and detection of hinge joints
- 6. `planar`: planar rigid transforms, and the heading of a body
- 7. `euler`: Euler angles, gimbal lock, and continuity over frames
- 8. `ground_path`: paths on the ground, parametrised by arc length
- 9. `limb_tree`: bones of constant length, and chains of them
-10. `limb_pairs`: pairs of limbs, mirror images by their lengths
-11. `limb_roles`: left and right, and the roles of the joints of a limb
-12. `limb_search`: legs and arms by bones and motion, whatever the names of joints
-13. `limbs`: legs and arms, the heading of the hips, and the role of each joint in a body
-14. `limb_partners`: joints of left and right limbs that are mirror images
-15. `body_sides`: left, right and the head, by names or roles
-16. `fingerprints`: hashes that identify a clip under any name
-17. `tuned`: the constants that trials chose
+ 2. `motion`: the pose in every frame, and resampling
+ 3. `concatenation`: motions one after the other, on one skeleton and at one frame rate
+ 4. `rotations`: unit quaternions (w, x, y, z) as arrays: product, slerp, conversions
+ 5. `joint_trees`: forward kinematics and velocities of arrays
+ 6. `kinematics`: forward kinematics of a motion, and detection of hinge joints
+ 7. `planar`: planar rigid transforms, and the heading of a body
+ 8. `euler`: Euler angles, gimbal lock, and continuity over frames
+ 9. `ground_path`: paths on the ground, parametrised by arc length
+10. `legs`: the joints of a leg, and the heading of the hips
+11. `limb_tree`: bones of constant length, and chains of them
+12. `limb_pairs`: pairs of limbs, mirror images by their lengths
+13. `limb_roles`: left and right, and the roles of the joints of a limb
+14. `limb_search`: legs and arms by bones and motion, whatever the names of joints
+15. `limbs`: legs and arms, and the role of each joint in a body
+16. `limb_partners`: joints of left and right limbs that are mirror images
+17. `body_sides`: left, right and the head, by names or roles
+18. `fingerprints`: hashes that identify a clip under any name
+19. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -1,6 +1,7 @@
 from . import euler as euler
 from . import kinematics as kinematics
 from . import rotations as rotations
+from .concatenation import concatenate as concatenate
 from .ground_path import SHAPES as SHAPES
 from .ground_path import GroundPath as GroundPath
 from .ground_path import arcs as arcs
@@ -10,12 +11,11 @@ from .ground_path import spline as spline
 from .joint_trees import velocities as velocities
 from .kinematics import forward_kinematics as forward_kinematics
 from .kinematics import joint_positions as joint_positions
-from .limbs import Leg as Leg
+from .legs import Leg as Leg
+from .legs import name_leg as name_leg
 from .limbs import find_legs as find_legs
-from .limbs import name_leg as name_leg
 from .limbs import with_roles as with_roles
 from .motion import Motion as Motion
-from .motion import concatenate as concatenate
 from .motion import resample as resample
 from .planar import PlanarTransform as PlanarTransform
 from .planar import heading as heading

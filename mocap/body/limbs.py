@@ -7,17 +7,16 @@ trunk is identified by the tree: the pelvis is the last common ancestor of the l
 arms. The waist and the neck are the first joints above them.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import lru_cache
-from itertools import pairwise
 from textwrap import shorten
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 
-from mocap._shared.arrays import Array
 from mocap.body.joint_trees import place_joints
+from mocap.body.legs import SHORT, Leg, require_leg
 from mocap.body.limb_pairs import LIMITS
 from mocap.body.limb_search import find_limbs
 from mocap.body.motion import Motion, require_motion
@@ -27,7 +26,6 @@ from mocap.errors import MocapError, Remedy, shortened, warn
 # Each surface names its own parameter: `roles=` of `mocap.load`, `--joints` of a command.
 ROLES_BY_HAND = Remedy("name them by {} when the clip is read", "roles")
 
-SHORT = 1e-6  # metres: a bone of this length or less has no direction
 
 # Names of hip, knee, ankle and of shoulder, elbow, wrist on the left side, by source. Legs and arms are
 # looked up separately. A prefix up to a colon is ignored.
@@ -56,40 +54,6 @@ TIPS = tuple(f"{side} tip" for side in SIDES)
 """The ends of the toes: roles that a skeleton may carry, but that no bone of another body follows."""
 
 
-class Leg(NamedTuple):
-    """The joints of a leg, as indices into a skeleton, each below the one before.
-
-    A foot without toes has no joint at its ball. Its `ball` is then the ankle, and its length is 0.
-
-    Examples
-    --------
-    >>> from mocap.datasets.samples import SKELETON
-    >>> leg = Leg(2, 3, 4, 5)
-    >>> SKELETON.names[leg.knee], leg.lengths(SKELETON).round(3)
-    ('ltibia', array([0.429, 0.43 , 0.136]))
-    """
-
-    hip: int
-    knee: int
-    ankle: int
-    ball: int
-
-    def lengths(self, skeleton: Skeleton) -> Array:
-        """Return the lengths of thigh, shank and foot (ankle to ball), shape (3,), metres."""
-        bones = np.linalg.norm(skeleton.offsets, axis=-1)
-        lengths = []
-        for above, joint in pairwise(self):
-            path = skeleton.path_to_root(joint)
-            between = path[: path.index(above)]  # more than one bone in a thigh that is split
-            lengths.append(sum(bones[between]))
-        return np.array(lengths, float)
-
-    @property
-    def has_ball(self) -> bool:
-        """Whether the foot has a joint ahead of its ankle."""
-        return self.ball != self.ankle
-
-
 def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
     """Find the left and the right leg by the skeleton's roles, by names, or by the rest pose.
 
@@ -116,7 +80,7 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
     for side in SIDES:
         hip, knee, ankle = (joints[f"{side} {part}"] for part in LEG[:3])
         legs.append(Leg(hip, knee, ankle, joints.get(f"{side} ball", ankle)))
-        _require_leg(skeleton, legs[-1])
+        require_leg(skeleton, legs[-1])
     return tuple(legs)
 
 
@@ -311,51 +275,6 @@ def find_pair(skeleton: Skeleton, limbs: Literal["legs", "arms"]) -> list[list[i
 def _without_prefixes(skeleton: Skeleton) -> list[str]:
     """List the joints' names without a prefix up to a colon, as in "mixamorig:LeftArm"."""
     return [name.rsplit(":", 1)[-1] for name in skeleton.names]
-
-
-def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> Leg:
-    """Make a leg from the names of its joints.
-
-    Raises
-    ------
-    MocapError : for unknown names, a joint that is not the parent of the next one, and bones of length zero.
-
-    Examples
-    --------
-    >>> from mocap.datasets.samples import SKELETON
-    >>> name_leg(SKELETON, "lfemur", "ltibia", "lfoot", "ltoes")
-    Leg(hip=2, knee=3, ankle=4, ball=5)
-    """
-    leg = Leg(*(skeleton.index(name) for name in (hip, knee, ankle, ball)))
-    _require_leg(skeleton, leg)
-    return leg
-
-
-def _require_leg(skeleton: Skeleton, leg: Leg) -> None:
-    """Raise unless each joint of a leg hangs on the one before, at a distance; a ball may be the ankle."""
-    names = skeleton.names
-    for above, below in pairwise(leg if leg.has_ball else leg[:3]):
-        if above not in skeleton.path_to_root(below)[1:]:
-            hangs = f"'{names[below]}' hangs on '{names[skeleton.parents[below]]}', not on '{names[above]}'"
-            raise MocapError(f"In a leg each joint hangs on the one before, but {hangs}.")
-    for below, length in zip(leg[1:], leg.lengths(skeleton), strict=True):
-        if not length > SHORT and (below != leg.ball or leg.has_ball):
-            above = leg[leg.index(below) - 1]
-            raise MocapError(f"'{names[below]}' sits on '{names[above]}': a bone needs a length.")
-
-
-def heading_by_hips(positions: Array, legs: Sequence[Leg]) -> Array:
-    """Compute the heading perpendicular to the line of the hips, from positions (F, J, 3); radians (F,).
-
-    Examples
-    --------
-    >>> left, right = Leg(0, 2, 3, 4), Leg(1, 5, 6, 7)
-    >>> heading_by_hips(np.array([[[0.0, 1, 0.1], [0, 1, -0.1]]]), [left, right]).round(4)
-    array([-1.5708])
-    """
-    left, right = (positions[:, leg.hip] for leg in legs)
-    across = left - right
-    return np.asarray(np.arctan2(-across[:, 2], across[:, 0]))
 
 
 def roles(skeleton: Skeleton) -> dict[str, int]:

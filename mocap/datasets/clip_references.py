@@ -16,8 +16,9 @@ from typing import Any
 from mocap._shared.archives import Arrays, Layout, Rules
 from mocap._shared.progress import Progress
 from mocap._shared.records import NamedTuple
+from mocap.body.concatenation import require_compatible
 from mocap.body.fingerprints import fingerprint
-from mocap.body.motion import Motion, require_compatible, resample
+from mocap.body.motion import Motion, resample
 from mocap.datasets.clip_origins import NOWHERE, Origin, find_again, is_origin, stored_options
 from mocap.datasets.samples import FPS, FRAMES_IN_0_1, SAMPLES, sample
 from mocap.editing.mirroring import mirror, mirrored_label

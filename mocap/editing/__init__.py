@@ -9,31 +9,34 @@ Reading order (notebooks 10 to 14)
  1. `displacements`: displacement maps, which an edit adds to a motion, and the splines that keep them smooth
  2. `poses`: a motion with its joints in the world, computed once and handed on
  3. `boxes`: constraints of two kinds, on positions and on rotations, with their values and Jacobians
- 4. `pins`: the constraints that edits use: footplants, rails, floors, limits, orientations
- 5. `bodies`: which joints may rotate, about which axes, at what price
- 6. `stages`: the stages of the solver, the curves of each, and their banded least squares
- 7. `solver`: its stages; the smallest smooth change that meets constraints, for single frames or all together
- 8. `toes`: toes that bend so that their tips stay above the floor
- 9. `standing`: what keeps standing under an edit: plants, a floor, and marks that are true
-10. `edits`: a smooth change that meets constraints exactly
-11. `foot_cleaning`: feet that do not slide, and joints that are not under the floor
-12. `posing`: a single pose, made by dragging joints
-13. `levels`: constraints met level by level, from coarse to fine
-14. `path_editing`: the path of a motion, and the motion on another path
-15. `turning`: slower in bends, and leaning in, as people take them
-16. `line_rounding`: lines rounded where a walk would turn too fast
-17. `bending`: a walk bent to any line, with feet that stand
-18. `keys`: keys, the curve through them, and warps by offsets and by scale
-19. `retiming`: time keys, and motions at moments between their frames
-20. `warp_plans`: a whole warp from a small text file
-21. `foot_heights`: heights of ankles and balls that stand
-22. `stances`: the stance of a body, from its rest pose, a pose, or a walk
-23. `proportions`: bodies with longer or shorter limbs
-24. `retargeting`: global rotations copied to another body, and constraints for its feet
-25. `mirroring`: left and right exchanged, by names and geometry
-26. `cycles`: the best cycle of a clip, closed by a blend
-27. `travel`: the travel on the ground, removed
-28. `tuned`: the constants that trials chose
+ 4. `constraints`: all constraints as one value, and their rows in the least squares
+ 5. `constraint_checks`: whether a pose can meet constraints, and their errors
+ 6. `pins`: the constraints that edits use: footplants, rails, floors, limits, orientations
+ 7. `bodies`: which joints may rotate, about which axes, at what price
+ 8. `stages`: the stages of the solver, the curves of each, and their banded least squares
+ 9. `solver`: its stages; the smallest smooth change that meets constraints, for single frames or all together
+10. `toes`: toes that bend so that their tips stay above the floor
+11. `standing`: what keeps standing under an edit: plants, a floor, and marks that are true
+12. `edits`: a smooth change that meets constraints exactly
+13. `foot_cleaning`: feet that do not slide, and joints that are not under the floor
+14. `posing`: a single pose, made by dragging joints
+15. `levels`: constraints met level by level, from coarse to fine
+16. `path_editing`: the path of a motion, and the motion on another path
+17. `turning`: slower in bends, and leaning in, as people take them
+18. `line_rounding`: lines rounded where a walk would turn too fast
+19. `bending`: a walk bent to any line, with feet that stand
+20. `keys`: keys, the curve through them, and warps by offsets and by scale
+21. `retiming`: time keys, and motions at moments between their frames
+22. `warp_plans`: a whole warp from a small text file
+23. `foot_heights`: heights of ankles and balls that stand
+24. `stances`: the stance of a body, from its rest pose, a pose, or a walk
+25. `proportions`: bodies with longer or shorter limbs
+26. `pose_copying`: global rotations and the path of the hips, copied to another body
+27. `retargeting`: a copied motion, changed until its feet stand on the floor
+28. `mirroring`: left and right exchanged, by names and geometry
+29. `cycles`: the best cycle of a clip, closed by a blend
+30. `travel`: the travel on the ground, removed
+31. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -2,7 +2,8 @@ from .bending import LIMIT as LIMIT
 from .bending import Bent as Bent
 from .bending import bend as bend
 from .bodies import body_of as body_of
-from .boxes import Pins as Pins
+from .constraint_checks import pin_errors as pin_errors
+from .constraints import Pins as Pins
 from .cycles import Loop as Loop
 from .cycles import find_loop as find_loop
 from .cycles import loop as loop
@@ -31,11 +32,10 @@ from .pins import join_pins as join_pins
 from .pins import keep_turned as keep_turned
 from .pins import limit_turns as limit_turns
 from .pins import pin as pin
-from .pins import pin_errors as pin_errors
 from .pins import plant_pins as plant_pins
+from .pose_copying import copied as copied
 from .posing import posed as posed
 from .proportions import proportioned as proportioned
-from .retargeting import copied as copied
 from .retargeting import floor_pins as floor_pins
 from .retargeting import retarget as retarget
 from .retargeting import wear as wear

@@ -11,7 +11,7 @@ from mocap._shared.arrays import Array, Indices
 from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import hinge_of
 from mocap.body.motion import rotating_joints
-from mocap.editing.boxes import Pins
+from mocap.editing.constraints import Pins
 from mocap.editing.displacements import Displacement, right_jacobian
 from mocap.editing.poses import ROOT, ROTATIONS, MotionOrPoses, Poses, WorldAxes, poses_of
 from mocap.editing.tuned import TUNED

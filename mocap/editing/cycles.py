@@ -20,7 +20,8 @@ from mocap._shared.records import NamedTuple
 from mocap._shared.ties import first_least
 from mocap.blending.joining import join
 from mocap.body import rotations
-from mocap.body.motion import Motion, concatenate, require_motion, resample
+from mocap.body.concatenation import concatenate
+from mocap.body.motion import Motion, require_motion, resample
 from mocap.body.planar import PlanarTransform, align_frames, heading
 from mocap.editing.foot_cleaning import raised
 from mocap.editing.path_editing import plants_kept
@@ -30,8 +31,9 @@ from mocap.errors import MocapError, MocapWarning, shortened, warn
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 from mocap.matching import distance_grids
-from mocap.matching.distance_grids import Floats, distance_grid
+from mocap.matching.distance_grids import distance_grid
 from mocap.matching.point_clouds import point_cloud
+from mocap.matching.prepared_clouds import Floats
 
 SHORTEST = 0.4  # seconds, the shortest cycle that is searched for by default
 LONGEST = 3.0  # seconds, the longest one

@@ -6,8 +6,9 @@ from mocap._shared.arrays import runs
 from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion
 from mocap.editing.bodies import Body, priced
-from mocap.editing.boxes import Pins
-from mocap.editing.pins import join_pins, plant_pins, require_pins_of, require_reachable, warn_of_errors
+from mocap.editing.constraint_checks import require_pins_of, require_reachable, warn_of_errors
+from mocap.editing.constraints import Pins
+from mocap.editing.pins import join_pins, plant_pins
 from mocap.editing.poses import Poses, poses_of, with_part
 from mocap.editing.solver import EVERY_FRAME, solve_stages
 from mocap.editing.stages import Stage, closing_stages

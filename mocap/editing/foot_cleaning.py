@@ -5,7 +5,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
-from mocap.editing.boxes import Pins
+from mocap.editing.constraints import Pins
 from mocap.editing.edits import section_of, solved_section
 from mocap.editing.pins import join_pins, plant_pins
 from mocap.editing.poses import poses_of

@@ -11,9 +11,9 @@ from mocap._shared.arrays import Array, Indices, Mask
 from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion
 from mocap.editing.bodies import Body, priced
-from mocap.editing.boxes import Pins
+from mocap.editing.constraint_checks import require_pins_of, require_reachable
+from mocap.editing.constraints import Pins
 from mocap.editing.displacements import displaced, spline_basis
-from mocap.editing.pins import require_pins_of, require_reachable
 from mocap.editing.poses import ROOT, ROTATIONS, poses_of
 from mocap.editing.solver import solve_stages
 from mocap.editing.stages import REACH

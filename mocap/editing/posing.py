@@ -8,8 +8,9 @@ from numpy.typing import ArrayLike
 
 from mocap.body.motion import Motion
 from mocap.editing.bodies import priced
-from mocap.editing.boxes import Pins
-from mocap.editing.pins import join_pins, pin, plant_pins, require_reachable, warn_of_errors
+from mocap.editing.constraint_checks import require_reachable, warn_of_errors
+from mocap.editing.constraints import Pins
+from mocap.editing.pins import join_pins, pin, plant_pins
 from mocap.editing.poses import MotionOrPoses, Poses, poses_of
 from mocap.editing.solver import solve_stages
 from mocap.editing.stages import Stage

@@ -21,9 +21,9 @@ from mocap._shared.arrays import Array, Indices, Mask
 from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion
 from mocap.editing.bodies import Body, body_of
-from mocap.editing.boxes import Pins
+from mocap.editing.constraint_checks import require_pins_of, require_reachable, warn_of_errors
+from mocap.editing.constraints import Pins
 from mocap.editing.displacements import displaced
-from mocap.editing.pins import require_pins_of, require_reachable, warn_of_errors
 from mocap.editing.poses import ROTATIONS, MotionOrPoses, Poses, poses_of
 from mocap.editing.stages import Curve, Stage
 from mocap.editing.tuned import TUNED

@@ -15,7 +15,8 @@ from mocap._shared.arrays import Array
 from mocap._shared.records import dataclass
 from mocap.body import rotations
 from mocap.body.kinematics import GlobalPoses, forward_kinematics
-from mocap.body.limbs import FEET, SIDES, Leg, find_legs, heading_by_hips, roles, with_roles
+from mocap.body.legs import Leg, heading_by_hips
+from mocap.body.limbs import FEET, SIDES, find_legs, roles, with_roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.foot_heights import heights_of_body, is_pose

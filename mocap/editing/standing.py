@@ -7,8 +7,8 @@ import numpy as np
 
 from mocap._shared.arrays import Array, runs
 from mocap.body.limbs import find_legs
-from mocap.editing.boxes import Pins
-from mocap.editing.pins import warn_of_errors
+from mocap.editing.constraint_checks import warn_of_errors
+from mocap.editing.constraints import Pins
 from mocap.editing.poses import Poses
 from mocap.editing.toes import SLACK, lowest_allowed
 

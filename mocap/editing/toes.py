@@ -14,7 +14,8 @@ from scipy.ndimage import convolve1d, maximum_filter1d
 from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.kinematics import hinge_of, joint_positions
-from mocap.body.limbs import Leg, find_legs, with_roles
+from mocap.body.legs import Leg
+from mocap.body.limbs import find_legs, with_roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.poses import MotionOrPoses, Poses, poses_of

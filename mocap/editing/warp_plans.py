@@ -13,7 +13,7 @@ from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import heading
-from mocap.editing.boxes import Pins
+from mocap.editing.constraints import Pins
 from mocap.editing.displacements import displaced
 from mocap.editing.edits import brought
 from mocap.editing.foot_cleaning import clean_feet

@@ -16,7 +16,8 @@ from mocap._shared.arrays import runs as runs  # which the room exports
 from mocap._shared.records import NamedTuple
 from mocap.body.body_sides import sides
 from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import Leg, find_legs, with_roles
+from mocap.body.legs import Leg
+from mocap.body.limbs import find_legs, with_roles
 from mocap.body.motion import Motion, require_motion
 from mocap.errors import MocapError
 

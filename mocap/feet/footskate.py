@@ -24,7 +24,8 @@ from scipy.ndimage import binary_propagation, maximum_filter1d
 
 from mocap._shared.arrays import Array, Mask, runs
 from mocap.body.kinematics import GlobalPoses, forward_kinematics
-from mocap.body.limbs import Leg, find_legs
+from mocap.body.legs import Leg
+from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion, require_motion
 from mocap.errors import MocapError, shortened, warn
 from mocap.feet.ankle_targets import FootTarget, foot_target

@@ -13,7 +13,7 @@ from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.kinematics import GlobalPoses
-from mocap.body.limbs import Leg
+from mocap.body.legs import Leg
 from mocap.body.motion import Motion
 from mocap.feet.leg_track import UP, dot
 

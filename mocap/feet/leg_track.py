@@ -12,7 +12,7 @@ from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.kinematics import GlobalPoses
-from mocap.body.limbs import Leg
+from mocap.body.legs import Leg
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
 from mocap.feet.tuned import TUNED

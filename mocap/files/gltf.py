@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array, Mask
 from mocap.body import rotations
-from mocap.body.motion import Motion, require_compatible, rotating_joints
+from mocap.body.concatenation import require_compatible
+from mocap.body.motion import Motion, rotating_joints
 from mocap.body.planar import PlanarTransform, heading
 from mocap.body.skeleton import Skeleton, reaches
 from mocap.errors import MocapError, shortened

@@ -14,8 +14,9 @@ import numpy as np
 from mocap._shared.arrays import Array, Indices
 from mocap.body import rotations
 from mocap.body.joint_trees import GlobalPoses, place_joints
+from mocap.body.legs import heading_by_hips
 from mocap.body.limb_partners import limb_partners
-from mocap.body.limbs import SIDES, find_legs, has_named_legs, heading_by_hips, roles
+from mocap.body.limbs import SIDES, find_legs, has_named_legs, roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened, warn

@@ -12,7 +12,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask, Points, ranges
 from mocap._shared.records import dataclass
-from mocap.body.motion import gather_marks
+from mocap.body.concatenation import gather_marks
 from mocap.body.planar import heading, on_ground
 from mocap.errors import NoWalk
 from mocap.graphs.edge_tables import (

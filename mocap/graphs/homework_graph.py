@@ -19,11 +19,12 @@ from numpy.typing import NDArray
 from mocap._shared.arrays import Array
 from mocap.blending.joining import blend
 from mocap.blending.weights import sine_weights
-from mocap.body.motion import Motion, concatenate, require_compatible
+from mocap.body.concatenation import concatenate, require_compatible
+from mocap.body.motion import Motion
 from mocap.body.planar import IDENTITY, align_frames
 from mocap.errors import MocapError, NoWalk
-from mocap.matching.distance_grids import check_window
 from mocap.matching.other_metrics import Metric, euler_grid
+from mocap.matching.prepared_clouds import check_window
 
 LEAST_COST = 1e-9  # in the unit of the metric: avoids 1 / 0 for equal windows
 

@@ -21,7 +21,8 @@ from mocap._shared.progress import Progress
 from mocap._shared.quantities import check_frames, check_threshold, described
 from mocap._shared.records import dataclass
 from mocap._shared.suggestions import missing_attribute
-from mocap.body.motion import Motion, require_compatible, require_motions
+from mocap.body.concatenation import require_compatible
+from mocap.body.motion import Motion, require_motions
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
 from mocap.graphs.components import Labels

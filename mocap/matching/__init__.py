@@ -6,17 +6,19 @@ and compute the distance that remains between their points. Its local minima are
 
 Reading order (notebooks 02, 05, 15)
 --------------------------------
-1. `point_clouds`: the point cloud of a motion, and the alignment of two clouds
-2. `distance_grids`: the distances between all windows of two clips, by matrix products
-3. `other_metrics`: the two metrics of the homework, and their faults; `Metric`, the common signature
-4. `lower_bound`: a tight lower bound of the distance, with its derivation
-5. `near_pairs`: the pairs of windows that the bound does not rule out, and their distances
-6. `minima`: local minima of distance grids of any size
-7. `transitions`: the transitions between clips
-8. `time_bands`: bands of a distance grid around its diagonal
-9. `time_paths`: dynamic time warping of one clip to another
-10. `banded_paths`: the same for long clips, in a band that widens where the path needs it
-11. `tuned`: the constants that trials chose
+ 1. `point_clouds`: the point cloud of a motion, and the alignment of two clouds
+ 2. `prepared_clouds`: the point clouds of a clip, centred and weighted, with the sums of each window
+ 3. `window_sums`: sums over the frames of all pairs of windows
+ 4. `distance_grids`: the distances between all windows of two clips, by matrix products
+ 5. `other_metrics`: the two metrics of the homework, and their faults; `Metric`, the common signature
+ 6. `lower_bound`: a tight lower bound of the distance, with its derivation
+ 7. `near_pairs`: the pairs of windows that the bound does not rule out, and their distances
+ 8. `minima`: local minima of distance grids of any size
+ 9. `transitions`: the transitions between clips
+10. `time_bands`: bands of a distance grid around its diagonal
+11. `time_paths`: dynamic time warping of one clip to another
+12. `banded_paths`: the same for long clips, in a band that widens where the path needs it
+13. `tuned`: the constants that trials chose
 
 References
 ----------

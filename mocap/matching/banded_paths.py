@@ -12,14 +12,8 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array, Indices
 from mocap._shared.records import NamedTuple
 from mocap._shared.tasks import one_blas_thread, run_in_order, thread_count
-from mocap.matching.distance_grids import (
-    EQUAL,
-    Cloud,
-    Floats,
-    cloud_distances,
-    prepared_windows,
-    tiled_distances,
-)
+from mocap.matching.distance_grids import EQUAL, cloud_distances, tiled_distances
+from mocap.matching.prepared_clouds import Cloud, Floats, prepared_windows
 from mocap.matching.time_bands import Band, diagonal_band, widened
 from mocap.matching.time_paths import least_mean_path, mean_of_cells
 from mocap.matching.tuned import TUNED

@@ -40,7 +40,7 @@ from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array, Indices
 from mocap._shared.records import NamedTuple
-from mocap.matching.distance_grids import Cloud, window_vectors
+from mocap.matching.prepared_clouds import Cloud, window_vectors
 from mocap.matching.tuned import TUNED
 
 Singles = NDArray[np.float32]

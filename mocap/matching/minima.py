@@ -23,7 +23,7 @@ from mocap._shared.records import NamedTuple
 from mocap._shared.tasks import one_blas_thread, run_in_order
 from mocap.body.planar import from_ground
 from mocap.errors import MocapError
-from mocap.matching.distance_grids import EQUAL, Cloud, Floats, tiled_distances, window_vectors
+from mocap.matching.distance_grids import EQUAL, tiled_distances
 from mocap.matching.lower_bound import (
     Directions,
     projections,
@@ -39,6 +39,7 @@ from mocap.matching.near_pairs import (
     pair_distances,
     sort_by_diagonal,
 )
+from mocap.matching.prepared_clouds import Cloud, Floats, window_vectors
 from mocap.matching.tuned import TUNED
 
 AT_ONCE = 1024  # pairs aligned at a time, to limit the memory

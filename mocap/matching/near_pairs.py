@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from mocap._shared.arrays import Indices
 from mocap._shared.records import NamedTuple
-from mocap.matching.distance_grids import Cloud, Floats
 from mocap.matching.lower_bound import (
     Directions,
     Singles,
@@ -24,6 +23,7 @@ from mocap.matching.lower_bound import (
     squared_length,
     squared_reach,
 )
+from mocap.matching.prepared_clouds import Cloud, Floats
 from mocap.matching.tuned import TUNED
 
 

@@ -16,7 +16,9 @@ from mocap._shared.arrays import Array
 from mocap.body import euler, rotations
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, shortened
-from mocap.matching.distance_grids import diagonal_sum, distance_grid, require_windows
+from mocap.matching.distance_grids import distance_grid
+from mocap.matching.prepared_clouds import require_windows
+from mocap.matching.window_sums import diagonal_sum
 
 _DIVISOR = 480  # common divisor of the weights
 _SIDED = {"femur": 50, "tibia": 30, "foot": 15, "toes": 5, "clavicle": 30, "humerus": 15, "radius": 5}

@@ -4,8 +4,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
+from mocap.body.concatenation import require_compatible
 from mocap.body.kinematics import forward_kinematics
-from mocap.body.motion import Motion, require_compatible
+from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError

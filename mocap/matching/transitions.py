@@ -16,9 +16,9 @@ from mocap._shared.records import NamedTuple, dataclass
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
-from mocap.matching.distance_grids import Cloud, cloud, join, require_windows
 from mocap.matching.minima import find_minima
 from mocap.matching.point_clouds import distinct_joints, point_cloud, require_near, unit_weights
+from mocap.matching.prepared_clouds import Cloud, cloud, join, require_windows
 from mocap.matching.tuned import TUNED
 
 Integers = NDArray[np.integer[Any]]

@@ -19,7 +19,8 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import GlobalPoses, forward_kinematics
-from mocap.body.limbs import ARM, SIDES, Leg
+from mocap.body.legs import Leg
+from mocap.body.limbs import ARM, SIDES
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.quality.limits import LIMITS

@@ -24,7 +24,8 @@ from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.body_sides import partners
 from mocap.body.ground_path import GroundPath, as_path
-from mocap.body.limbs import Leg, find_legs, with_roles
+from mocap.body.legs import Leg
+from mocap.body.limbs import find_legs, with_roles
 from mocap.body.motion import Motion, require_motion, require_motions
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened

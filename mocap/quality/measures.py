@@ -15,7 +15,7 @@ import numpy as np
 from mocap._shared.arrays import Array, Indices
 from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import GlobalPoses, forward_kinematics
-from mocap.body.limbs import Leg
+from mocap.body.legs import Leg
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton, reaches
 

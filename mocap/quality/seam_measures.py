@@ -14,9 +14,11 @@ from numpy.lib.stride_tricks import sliding_window_view
 from mocap._shared.arrays import Array, Mask, runs
 from mocap._shared.records import NamedTuple
 from mocap.body import rotations
+from mocap.body.concatenation import require_compatible
 from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import Leg, find_legs
-from mocap.body.motion import Motion, require_compatible
+from mocap.body.legs import Leg
+from mocap.body.limbs import find_legs
+from mocap.body.motion import Motion
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import point_cloud
 from mocap.quality.limits import LIMITS

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.ndimage import minimum_filter1d
 
 from mocap._shared.arrays import Array, Mask
-from mocap.body.limbs import Leg
+from mocap.body.legs import Leg
 from mocap.feet.footplants import mark_plants
 from mocap.quality.limits import LIMITS
 from mocap.quality.measures import Measure, Seen

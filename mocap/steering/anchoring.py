@@ -17,7 +17,8 @@ from mocap._shared.arrays import Array, Points
 from mocap._shared.easing import quintic_step
 from mocap._shared.records import NamedTuple
 from mocap.body import rotations
-from mocap.body.limbs import find_legs, heading_by_hips
+from mocap.body.legs import heading_by_hips
+from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.body.planar import on_ground
 from mocap.editing.bending import LIMIT

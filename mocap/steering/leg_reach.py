@@ -14,7 +14,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
 from mocap.body.kinematics import forward_kinematics, hinge_of
-from mocap.body.limbs import Leg
+from mocap.body.legs import Leg
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 

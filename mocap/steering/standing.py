@@ -18,7 +18,8 @@ from mocap._shared.arrays import Array, Mask, runs
 from mocap._shared.collector import uncollected
 from mocap._shared.records import dataclass
 from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import find_legs, heading_by_hips
+from mocap.body.legs import heading_by_hips
+from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph

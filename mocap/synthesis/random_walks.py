@@ -15,7 +15,8 @@ from mocap._shared.arrays import Array
 from mocap._shared.progress import Progress
 from mocap._shared.quantities import check_number
 from mocap._shared.records import NamedTuple
-from mocap.body.motion import Motion, concatenate, rotating_joints
+from mocap.body.concatenation import concatenate
+from mocap.body.motion import Motion, rotating_joints
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.editing.foot_cleaning import clean_feet
 from mocap.editing.toes import lowest_heights

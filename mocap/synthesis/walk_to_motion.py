@@ -14,7 +14,8 @@ from mocap._shared.arrays import Array, Indices
 from mocap._shared.quantities import described
 from mocap._shared.records import NamedTuple
 from mocap.body import rotations
-from mocap.body.motion import Motion, gather_marks
+from mocap.body.concatenation import gather_marks
+from mocap.body.motion import Motion
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.editing.foot_cleaning import clean_feet
 from mocap.editing.toes import lowest_heights

@@ -5,24 +5,25 @@ is a picture that is redrawn when its controls move.
 
 Reading order (notebooks 00 to 19)
 ----------------------------------
-1. `embedding`: a player as part of a page, as a page, and as a picture without scripts
-2. `player`: motions packed as numbers for all scripts, and the player for pages and notebooks
-3. `live`: live widgets, and a picture when the notebook is opened again
-4. `shared_traits`: the state that browser and Python share
-5. `live_player`: players whose scene Python changes: a canvas for paths, and sliders of a blend
-6. `pointing`: handles to drag
-7. `experiments`: a picture with controls
-8. `walk_figure`: the capsules of a body
-9. `shaded_picture`: bodies and their shadows, drawn without a browser
+ 1. `embedding`: a player as part of a page, as a page, and as a picture without scripts
+ 2. `player`: motions packed as numbers for all scripts, and the player for pages and notebooks
+ 3. `live`: live widgets, and a picture when the notebook is opened again
+ 4. `shared_traits`: the state that browser and Python share
+ 5. `live_player`: players whose scene Python changes: a canvas for paths, and sliders of a blend
+ 6. `pointing`: handles to drag
+ 7. `experiments`: a picture with controls
+ 8. `walk_figure`: the capsules of a body
+ 9. `shaded_picture`: bodies and their shadows, drawn without a browser
 10. `filmed_scene`: the picture of a player at a given time
-11. `still_picture`: the picture of a player without scripts
-12. `film`: a motion as a film, a still picture or a page
-13. `company`: characters that are stepped together, and the delay of each response
-14. `steered_widget`: characters side by side that obey one command of the reader
-15. `walk_bending`: walks bent onto a line, with feet that stand still
-16. `walk_kinds`: the kinds of motion that can follow lines
-17. `walking_page`: a page on which a figure walks along drawn lines
-18. `link_picture`: the picture that a link to this page shows
+11. `still_bodies`: the bodies of a still picture, apart from each other
+12. `still_picture`: the picture of a player without scripts
+13. `film`: a motion as a film, a still picture or a page
+14. `company`: characters that are stepped together, and the delay of each response
+15. `steered_widget`: characters side by side that obey one command of the reader
+16. `walk_bending`: walks bent onto a line, with feet that stand still
+17. `walk_kinds`: the kinds of motion that can follow lines
+18. `walking_page`: a page on which a figure walks along drawn lines
+19. `link_picture`: the picture that a link to this page shows
 
 References
 ----------

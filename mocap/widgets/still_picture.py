@@ -1,13 +1,7 @@
-"""The picture of a player where no script runs: shaded bodies that are apart from each other, with names.
-
-A motion on the ground is drawn as bodies along its path, and a motion that stays at its position as a row of
-poses. Motions at the same positions would hide each other, therefore each has a row of its own.
-"""
+"""The picture of a player where no script runs: shaded bodies that are apart from each other, with names."""
 
 from __future__ import annotations
 
-from collections import Counter
-from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +18,7 @@ from mocap.plotting.picture import LETTERS, SLIDE, few_colours
 from mocap.plotting.style import ASKED, QUIET
 from mocap.widgets.filmed_scene import ASKED_WIDTH, FLAT, PATH_WIDTH, SEAM_RADIUS, XZ, FilmedScene
 from mocap.widgets.shaded_picture import FOCUS, GROUND, YAW, ShadedPicture
+from mocap.widgets.still_bodies import Body, bodies_in_rows, requested_path, walks_on_ground, yaw_of_paths
 from mocap.widgets.walk_figure import capsules_at
 
 WIDTH = 990  # pixels, the greatest width
@@ -39,17 +34,6 @@ FARNESS = 3.0  # distance of the camera, as a multiple of the extent of the scen
 SEEN = 1.4  # distance to which the grid is drawn, as a multiple of the extent of the scene
 EXTENT = 4.0  # metres, the least extent from which that distance is computed
 ROUNDS = 4  # of the fit of the camera
-WALKS = 1.0  # metres, the least extent on the ground of a motion that is drawn along its path
-POSES = 8  # poses of a motion that stays at its position
-BETWEEN = 1.05  # metres between those poses
-MOST = 12  # bodies in a row
-FEW = 3  # characters: more are drawn at the same moments
-MOMENTS = 3  # number of those moments
-APART = 0.85  # metres, the least distance between two bodies
-NARROWEST = 0.7  # metres: motions with a smaller median distance have a row each
-WIDENING = 1.15  # factor of the least distance while there are too many bodies
-FORESHORTENED = 0.45  # factor of distances in depth, at which bodies hide each other
-ROWS = 6  # largest number of rows
 TAGGED = 4  # largest number of characters with names above their heads
 HEADROOM = np.array([0, 0.16, 0])  # metres, from the highest joint to the name above a head
 SEAM_FRACTION = 0.008  # least radius of the mark of a seam, as a fraction of the path's extent
@@ -58,14 +42,6 @@ WIDE = 0.35  # metres, half the width of a body with its arms
 PAPER = "#FFFFFF"
 GRID = "#BDB6A8"
 INK = "#222222"
-
-
-class Body(NamedTuple):
-    """A pose in a picture: the character's number, the time in seconds, and the translation in metres."""
-
-    number: int
-    time: float
-    moved: Array
 
 
 class _Entry(NamedTuple):
@@ -93,7 +69,7 @@ def still_picture(scene: dict[str, Any], *, legend: bool = True, letters: float 
     """
     film = FilmedScene(scene)
     walks = walks_on_ground(film)
-    yaw = _yaw(film) if walks else YAW
+    yaw = yaw_of_paths(film) if walks else YAW
     rows = bodies_in_rows(film)
     whole = _camera(film, [body for row in rows for body in row], yaw, len(rows))
     drawn = [_draw_row(film, row, whole) for row in rows]
@@ -116,111 +92,6 @@ def still_picture(scene: dict[str, Any], *, legend: bool = True, letters: float 
 def _letters_on_slide(width: int, height: int) -> float:
     """Return the size of letters, pixels, that can be read if a picture is as large as fits on a slide."""
     return LETTERS / min(SLIDE[0] / width, SLIDE[1] / height)
-
-
-def walks_on_ground(film: FilmedScene) -> bool:
-    """Return whether a character of a scene moves over the ground, or a path is requested."""
-    extents = [np.ptp(path[:, XZ], axis=0).max() for path in film.paths]
-    return bool(max(extents) >= WALKS or len(film.scene["asked"]))
-
-
-def bodies_in_rows(film: FilmedScene) -> list[list[Body]]:
-    """Choose the bodies of a still picture, a list for each row of the picture.
-
-    Each character has a body. Those on the ground are apart from each other: either by their positions, or
-    because characters at the same positions have a row each.
-    """
-    numbers = range(len(film.clouds))
-    if not walks_on_ground(film):
-        return [_poses(film, number) for number in numbers]
-    if len(numbers) <= ROWS and _hide_each_other(film):
-        return [_spaced(film, [number]) for number in numbers]
-    return [_spaced(film, list(numbers))]
-
-
-def _yaw(film: FilmedScene) -> float:
-    """Return the rotation of the camera for which the longest extent of the paths is horizontal."""
-    ground = np.concatenate(film.paths) * FLAT
-    ground = np.concatenate([ground, _requested_path(film)])
-    across = np.linalg.svd(ground - ground.mean(axis=0), full_matrices=False)[2][0]
-    first = film.paths[0]
-    if (first[-1] - first[0]) @ across < 0:
-        across = -across
-    return float(np.arctan2(-across[2], across[0]))
-
-
-def _requested_path(film: FilmedScene) -> Array:
-    """Return the points of the requested path, (N, 3), metres."""
-    return np.insert(np.reshape(film.scene["asked"], (-1, 2)), 1, 0.0, axis=1)
-
-
-def _seen(film: FilmedScene) -> Array:
-    """Return the paths of all characters, (N, T, 2), metres across and, foreshortened, in depth."""
-    cos = np.cos(_yaw(film))
-    sin = np.sin(_yaw(film))
-    view = np.array([[cos, -sin], [FORESHORTENED * sin, FORESHORTENED * cos]])
-    return np.asarray(np.array(film.paths)[..., XZ] @ view.T)
-
-
-def _hide_each_other(film: FilmedScene) -> bool:
-    """Return whether two characters are mostly at the same positions."""
-    pairs = combinations(np.array(film.paths)[..., XZ], 2)
-    return any(np.median(np.linalg.norm(p - q, axis=-1)) < NARROWEST for p, q in pairs)
-
-
-def _poses(film: FilmedScene, number: int) -> list[Body]:
-    """Return poses of a character at evenly spread times, side by side."""
-    right = np.array([np.cos(YAW), 0, -np.sin(YAW)])
-    times = np.unique(np.linspace(0, film.seconds, POSES).round(3)).tolist()
-    bodies = []
-    for place, time in enumerate(times):
-        root = film.pose(number, time)[0] * FLAT
-        bodies.append(Body(number, time, place * BETWEEN * right - root))
-    return bodies
-
-
-def _spaced(film: FilmedScene, numbers: list[int]) -> list[Body]:
-    """Return bodies at a minimum distance from each other, or at the same moments for many characters."""
-    if len(numbers) > FEW:
-        moments = np.linspace(0, film.seconds, MOMENTS).tolist()
-        return [Body(number, time, np.zeros(3)) for time in moments for number in numbers]
-    seen = _seen(film)
-    distance = APART * (1 + len(numbers)) / 2  # leaves gaps for the others
-    chosen = _far_enough(seen, numbers, distance)
-    while len(chosen) > MOST:
-        distance *= WIDENING
-        chosen = _far_enough(seen, numbers, distance)
-    for number in set(numbers) - {number for number, _ in chosen}:
-        bodies = np.array([seen[pair] for pair in chosen])
-        nearest = np.linalg.norm(seen[number][:, None] - bodies, axis=-1).min(axis=1)
-        chosen.append((number, int(nearest.argmax())))
-    return [Body(number, float(film.times[index]), np.zeros(3)) for number, index in chosen]
-
-
-def _far_enough(seen: Array, numbers: list[int], distance: float) -> list[tuple[int, int]]:
-    """Choose pairs (character, index of its time) that are `APART`, those of one character by `distance`.
-
-    The choice ends as soon as there are too many.
-    """
-    chosen: list[tuple[int, int]] = []
-    for index in range(seen.shape[1]):
-        counts = Counter(number for number, _ in chosen)
-        for number in sorted(numbers, key=counts.__getitem__):  # characters with few bodies first
-            if _is_free(seen, chosen, (number, index), distance):
-                chosen.append((number, index))
-        if len(chosen) > MOST:
-            break
-    return chosen
-
-
-def _is_free(seen: Array, chosen: list[tuple[int, int]], pair: tuple[int, int], distance: float) -> bool:
-    """Return whether a body is `APART` from those of other characters, and by `distance` from its own."""
-    number, _ = pair
-    for chosen_pair in chosen:
-        limit = distance if chosen_pair[0] == number else APART
-        if np.linalg.norm(seen[chosen_pair] - seen[pair]) <= limit:
-            return False
-    return True
 
 
 class _Camera(NamedTuple):
@@ -280,7 +151,7 @@ def _points_of(film: FilmedScene, bodies: list[Body]) -> Array:
         points += [pose, pose[0] * FLAT + sides, head[None] + 2 * HEADROOM]
     if walks_on_ground(film):
         points += [path * FLAT for path in film.paths]
-        points.append(_requested_path(film))
+        points.append(requested_path(film))
         points += list(rims(film.scene["obstacles"]))
     return np.concatenate(points)
 
@@ -293,7 +164,7 @@ def _draw_row(film: FilmedScene, row: list[Body], camera: _Camera) -> NDArray[np
     for rim in rims(film.scene["obstacles"]):
         page.area(rim, to_rgb(QUIET))
     if walks_on_ground(film):
-        page.line(_requested_path(film), to_rgb(ASKED), ASKED_WIDTH)
+        page.line(requested_path(film), to_rgb(ASKED), ASKED_WIDTH)
         for number in numbers:
             _draw_path(page, film, number)
     pieces = []

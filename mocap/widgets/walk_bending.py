@@ -21,7 +21,8 @@ from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.ground_path import GroundPath
 from mocap.body.kinematics import GlobalPoses, forward_kinematics
-from mocap.body.limbs import Leg, find_legs
+from mocap.body.legs import Leg
+from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, heading, on_ground
 from mocap.editing.path_editing import moving_frames, ride_of

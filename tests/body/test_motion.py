@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from mocap.blending import blend, mix, register
 from mocap.body import Motion, Skeleton, concatenate, resample, rotations
+from mocap.body.concatenation import require_compatible
 from mocap.body.fingerprints import fingerprint
 from mocap.body.kinematics import forward_kinematics
-from mocap.body.motion import require_compatible
 from mocap.datasets import sample
 from mocap.errors import MocapError, SkeletonMismatch
 from mocap.graphs import build

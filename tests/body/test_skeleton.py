@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from mocap.body.limbs import find_legs, name_leg, roles
+from mocap.body.legs import name_leg
+from mocap.body.limbs import find_legs, roles
 from mocap.body.skeleton import Skeleton
 from mocap.datasets.samples import SKELETON
 from mocap.errors import SkeletonMismatch

@@ -14,7 +14,7 @@ from mocap._shared.archives import pack
 from mocap.body.motion import resample
 from mocap.cli.main import main
 from mocap.datasets import samples
-from mocap.editing.retargeting import copied
+from mocap.editing.pose_copying import copied
 from mocap.files import load_save
 from mocap.graphs import build, prune, storage
 from tests.bundled import bundled

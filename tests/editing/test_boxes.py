@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from mocap.body import rotations
 from mocap.editing.bodies import body_of
-from mocap.editing.boxes import Pins, PositionBoxes, RelativeRotation, RotationBoxes
+from mocap.editing.boxes import PositionBoxes, RelativeRotation, RotationBoxes
+from mocap.editing.constraints import Pins
 from mocap.editing.displacements import displaced
 from mocap.editing.poses import ROOT, poses_of
 from mocap.editing.tuned import TUNED

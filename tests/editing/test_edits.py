@@ -8,13 +8,14 @@ import pytest
 
 from mocap.body import joint_positions, resample, rotations
 from mocap.datasets.samples import sample
-from mocap.editing.boxes import Pins
+from mocap.editing.constraint_checks import pin_errors
+from mocap.editing.constraints import Pins
 from mocap.editing.displacements import difference, displaced, spline_basis
 from mocap.editing.edits import edit
 from mocap.editing.keys import Key, keys_around, offsets
 from mocap.editing.levels import hierarchy, scattered_fit
 from mocap.editing.path_editing import plants_kept
-from mocap.editing.pins import join_pins, pin, pin_errors, plant_pins
+from mocap.editing.pins import join_pins, pin, plant_pins
 from mocap.editing.posing import posed
 from mocap.feet.footskate import clean_up
 from tests.editing import wishes

@@ -10,7 +10,8 @@ from mocap.body import find_legs, rotations
 from mocap.body.kinematics import forward_kinematics, hinge_of, joint_positions
 from mocap.datasets.samples import sample
 from mocap.editing import Pins, body_of, difference, edit, hierarchy, join_pins, pin, pin_errors, plant_pins
-from mocap.editing.pins import keep_turned, limit_turns, require_reachable, with_plants
+from mocap.editing.constraint_checks import require_reachable
+from mocap.editing.pins import keep_turned, limit_turns, with_plants
 from mocap.files.load_save import load
 from tests.editing.wishes import bar, captured, far_hand, hand, shakes, smoothness, walk
 from tests.refusals import refusals, refused

@@ -12,8 +12,9 @@ from mocap import load
 from mocap.body import Motion, PlanarTransform, Skeleton, joint_positions, rotations
 from mocap.body.limbs import FEET
 from mocap.editing import join_pins, pin_errors, plants_kept
+from mocap.editing.pose_copying import copied
 from mocap.editing.proportions import proportioned
-from mocap.editing.retargeting import copied, floor_pins, floor_under, retarget, wear
+from mocap.editing.retargeting import floor_pins, floor_under, retarget, wear
 from mocap.editing.stances import Stance, stance_of, stance_of_zero
 from mocap.errors import SkeletonMismatch
 from mocap.feet import clean_up, mark_plants

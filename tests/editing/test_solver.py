@@ -12,8 +12,9 @@ from scipy.optimize import least_squares
 
 from mocap.editing import solver
 from mocap.editing.bodies import body_of
+from mocap.editing.constraint_checks import pin_errors
 from mocap.editing.displacements import displaced, spline_basis
-from mocap.editing.pins import join_pins, keep_turned, limit_turns, pin, pin_errors, plant_pins
+from mocap.editing.pins import join_pins, keep_turned, limit_turns, pin, plant_pins
 from mocap.editing.poses import poses_of
 from mocap.editing.solver import solve
 from mocap.editing.stages import REACH, Curve, Stage, closing_stages

@@ -8,8 +8,9 @@ import numpy as np
 from mocap._shared.arrays import runs
 from mocap.body import Motion, joint_positions, resample, rotations
 from mocap.datasets.samples import sample
-from mocap.editing.boxes import Pins
-from mocap.editing.pins import join_pins, pin, pin_errors, plant_pins
+from mocap.editing.constraint_checks import pin_errors
+from mocap.editing.constraints import Pins
+from mocap.editing.pins import join_pins, pin, plant_pins
 from mocap.feet import clean_up, mark_plants
 from mocap.files.load_save import load
 from tests.refusals import quietly

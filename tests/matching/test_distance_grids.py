@@ -12,9 +12,10 @@ from scipy.optimize import minimize
 from mocap.body import Motion, PlanarTransform, Skeleton, euler, rotations
 from mocap.errors import SkeletonMismatch
 from mocap.matching import align, distance_grids, local_minima
-from mocap.matching.distance_grids import cloud, cloud_distances, distance_grid, tiled_distances
+from mocap.matching.distance_grids import cloud_distances, distance_grid, tiled_distances
 from mocap.matching.other_metrics import HOMEWORK_WEIGHTS, METRICS, euler_grid, file_angles, root_grid
 from mocap.matching.point_clouds import distinct_joints, rms_distance, unit_weights
+from mocap.matching.prepared_clouds import cloud
 from mocap.matching.time_paths import origins, path_mean, path_sums, time_path, trace
 from tests.oracles import distance_oracle, least_sum, longest_run, path_sum, squared_distance
 from tests.refusals import refusals, refused

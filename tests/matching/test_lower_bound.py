@@ -6,10 +6,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.matching import lower_bound, near_pairs
-from mocap.matching.distance_grids import cloud, cloud_distances, join
+from mocap.matching.distance_grids import cloud_distances
 from mocap.matching.lower_bound import projections, sample_directions, squared_length, squared_reach
 from mocap.matching.near_pairs import cut_into_leaves, is_sparse, pair_distances, sort_by_diagonal
 from mocap.matching.point_clouds import unit_weights
+from mocap.matching.prepared_clouds import cloud, join
 from tests.strategies import planar, seeds
 from tests.tuning import tune
 

@@ -18,8 +18,9 @@ from mocap.body import Motion, Skeleton
 from mocap.errors import SkeletonMismatch
 from mocap.graphs.motion_graph import build
 from mocap.matching import distance_grids, minima, near_pairs, transitions
-from mocap.matching.distance_grids import cloud, cloud_distances, distance_grid, join
+from mocap.matching.distance_grids import cloud_distances, distance_grid
 from mocap.matching.minima import find_minima, local_minima
+from mocap.matching.prepared_clouds import cloud, join
 from mocap.matching.transitions import find_transitions, join_clouds
 from tests.bundled import walks_of_16
 from tests.refusals import refusals

@@ -14,7 +14,7 @@ from mocap.plotting.bodies import bodies_along
 from mocap.plotting.style import SOURCES
 from mocap.widgets import play
 from mocap.widgets.filmed_scene import FilmedScene
-from mocap.widgets.still_picture import FORESHORTENED, bodies_in_rows
+from mocap.widgets.still_bodies import FORESHORTENED, bodies_in_rows
 from tests.refusals import refused
 from tests.strategies import wave
 

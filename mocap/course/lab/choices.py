@@ -11,7 +11,8 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Mask
 from mocap.blending.joining import join
-from mocap.body.motion import Motion, require_compatible
+from mocap.body.concatenation import require_compatible
+from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.course.lab.adopting import slots, whose
 from mocap.course.lab.own import pages_of

@@ -21,7 +21,8 @@ from numpy.typing import ArrayLike
 
 from mocap import plain
 from mocap._shared.arrays import Array
-from mocap.body.motion import Motion, require_compatible
+from mocap.body.concatenation import require_compatible
+from mocap.body.motion import Motion
 from mocap.course.checks import all_checks
 from mocap.course.lab import program
 from mocap.course.lab.adopting import NAMES as NAMES

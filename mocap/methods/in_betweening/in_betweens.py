@@ -12,7 +12,8 @@ from dataclasses import replace
 import numpy as np
 
 from mocap._shared.records import NamedTuple
-from mocap.body.motion import Motion, concatenate, require_motion
+from mocap.body.concatenation import concatenate
+from mocap.body.motion import Motion, require_motion
 from mocap.editing.displacements import difference, displaced
 from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph

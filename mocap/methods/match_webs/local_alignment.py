@@ -19,7 +19,8 @@ from mocap._shared.arrays import Array, Indices, Mask
 from mocap._shared.progress import Progress
 from mocap._shared.ties import in_order
 from mocap.matching import distance_grids
-from mocap.matching.distance_grids import Cloud, Floats, tiled_distances
+from mocap.matching.distance_grids import tiled_distances
+from mocap.matching.prepared_clouds import Cloud, Floats
 from mocap.matching.time_paths import origins, path_sums, trace
 from mocap.methods.match_webs.tuned import TUNED
 

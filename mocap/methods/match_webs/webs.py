@@ -12,7 +12,8 @@ from mocap._shared.arrays import Array, Indices, frozen
 from mocap._shared.progress import Progress
 from mocap._shared.quantities import check_threshold
 from mocap._shared.records import dataclass
-from mocap.body.motion import Motion, require_compatible, resample
+from mocap.body.concatenation import require_compatible
+from mocap.body.motion import Motion, resample
 from mocap.errors import MocapError, warn
 from mocap.matching.transitions import join_clouds
 from mocap.methods.match_webs.local_alignment import DISTANCE, find_paths

@@ -13,9 +13,10 @@ from scipy.ndimage import gaussian_filter1d
 from mocap._shared.arrays import Array, Indices, Mask, Points, frozen
 from mocap._shared.records import dataclass
 from mocap.body import rotations
+from mocap.body.concatenation import concatenate, require_compatible
 from mocap.body.kinematics import joint_positions, velocities
 from mocap.body.limbs import find_legs
-from mocap.body.motion import Motion, concatenate, require_compatible
+from mocap.body.motion import Motion
 from mocap.body.planar import heading, on_ground
 from mocap.errors import MocapError
 

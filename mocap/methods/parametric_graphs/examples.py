@@ -16,7 +16,8 @@ from mocap._shared.arrays import Array, Indices, Mask, Points
 from mocap._shared.records import dataclass
 from mocap.blending.registering import register
 from mocap.body import rotations
-from mocap.body.motion import Motion, require_compatible
+from mocap.body.concatenation import require_compatible
+from mocap.body.motion import Motion
 from mocap.body.planar import heading, on_ground
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError

@@ -11,7 +11,8 @@ from mocap._shared.records import dataclass
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
-from mocap.matching.distance_grids import Cloud, cloud, cloud_distances
+from mocap.matching.distance_grids import cloud_distances
+from mocap.matching.prepared_clouds import Cloud, cloud
 from mocap.methods.match_webs.target_weights import sample_weights, weights_for
 from mocap.methods.parametric_graphs.examples import HALF
 from mocap.methods.parametric_graphs.stride_spaces import Space

@@ -8,8 +8,9 @@ from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
 from mocap.blending.joining import blend
 from mocap.blending.weights import cubic_weights
+from mocap.body.concatenation import concatenate
 from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion, concatenate
+from mocap.body.motion import Motion
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError, NoWalk
 from mocap.matching.point_clouds import align

@@ -14,8 +14,9 @@ import numpy as np
 
 from mocap._shared.arrays import Array, runs
 from mocap._shared.records import NamedTuple
+from mocap.body.concatenation import require_compatible
 from mocap.body.limbs import find_legs
-from mocap.body.motion import Motion, require_compatible
+from mocap.body.motion import Motion
 from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
 from mocap.methods.parametric_graphs.examples import (
