@@ -12,18 +12,20 @@ Reading order
 8. `clusters`: the workers of a Dask cluster
 9. `graph`: `mocap demo` and `mocap graph`, which build, save and describe motion graphs
 10. `directing`: options of `mocap walk` that direct a walk, and the table of a walk
-11. `walk`: `mocap walk`, `page` and `crowd`, which walk through a graph
-12. `clip_reports`: the numbers of clips, for `mocap info --json`
-13. `clips`: `mocap info`, `view`, `judge`, `convert` and `find`
-14. `labels`: `mocap label`, which proposes labels for clips
-15. `data`: `mocap data`, which lists and downloads clips of other labs
-16. `edits`: `mocap warp`, `bend`, `loop`, `blend` and `retarget`
-17. `cutting`: `mocap cut`, which cuts, resamples, mirrors and repeats clips
-18. `in_betweens`: `mocap inbetween`, which fills the time between two clips
-19. `course`: `mocap course`, which hands out, marks, publishes and runs the notebooks, and `mocap lab`
-20. `help_pages`: help in plain text
-21. `refusals`: errors for invalid commands, options and values, with suggestions
-22. `streams`: output streams that are closed, full, or abandoned by their reader
-23. `main`: all commands under one name, with `mocap completion` and the exit status
-24. `tuned`: the constants that trials chose
+11. `walk`: `mocap walk`, a walk along a path, as a direction says, or at random
+12. `page`: `mocap page`, a web page on which a figure walks
+13. `crowd`: `mocap crowd`, groups that walk
+14. `clip_reports`: the numbers of clips, for `mocap info --json`
+15. `clips`: `mocap info`, `view`, `judge`, `convert` and `find`
+16. `labels`: `mocap label`, which proposes labels for clips
+17. `data`: `mocap data`, which lists and downloads clips of other labs
+18. `edits`: `mocap warp`, `bend`, `loop`, `blend` and `retarget`
+19. `cutting`: `mocap cut`, which cuts, resamples, mirrors and repeats clips
+20. `in_betweens`: `mocap inbetween`, which fills the time between two clips
+21. `course`: `mocap course`, which hands out, marks, publishes and runs the notebooks, and `mocap lab`
+22. `help_pages`: help in plain text
+23. `refusals`: errors for invalid commands, options and values, with suggestions
+24. `streams`: output streams that are closed, full, or abandoned by their reader
+25. `main`: all commands under one name, with `mocap completion` and the exit status
+26. `tuned`: the constants that trials chose
 """

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from mocap.files.directions import Direction
     from mocap.graphs.edge_tables import Edge
     from mocap.graphs.motion_graph import MotionGraph, Node
-    from mocap.steering.directing import Arrived
+    from mocap.steering.directed_walk import Arrived
 
 
 @dataclass(frozen=True)

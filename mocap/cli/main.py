@@ -19,6 +19,7 @@ import mocap
 from mocap.cli import help_pages, refusals
 from mocap.cli.clips import convert, find, info, judge, view
 from mocap.cli.course import COURSE, lab
+from mocap.cli.crowd import crowd
 from mocap.cli.cutting import cut
 from mocap.cli.data import DATA
 from mocap.cli.edits import bend, blend, loop, retarget, warp
@@ -27,9 +28,10 @@ from mocap.cli.in_betweens import inbetween
 from mocap.cli.labels import label
 from mocap.cli.messages import VERBOSITY, Verbosity, at_verbosity, note, print_message
 from mocap.cli.options import named_options, retargeting_advised
+from mocap.cli.page import page
 from mocap.cli.streams import PatientOutput, prepared_streams
 from mocap.cli.typed_commands import Commands, Group, make_root, option_names
-from mocap.cli.walk import crowd, page, walk
+from mocap.cli.walk import walk
 from mocap.errors import MocapError, MocapWarning, shortened
 from mocap.files import formats
 

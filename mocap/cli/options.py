@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from mocap.graphs.motion_graph import MotionGraph
 
 SHORTEST_LINE = 0.5  # metres: a shorter path is doubted
+BUILD_FIRST = "build a graph of it first, by mocap graph {}"
 
 # The options for the parameters of `files.load_path`.
 PATH_READING = {"id": "--id", "length": "--length"}

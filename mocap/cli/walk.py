@@ -1,38 +1,34 @@
-"""Characters that walk through a graph: `mocap walk`, `mocap page` and `mocap crowd`."""
+"""A walk through a graph, along a path, as a direction says, or at random: `mocap walk`."""
 
-import cmath
 import math
 import re
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any
 
-from mocap import body, datasets, editing, files, graphs, plotting, steering, widgets
-from mocap._shared.atomic import make_folder, replacing, require_folder, write_file
+from mocap import editing, graphs, steering
+from mocap._shared.atomic import write_file
 from mocap._shared.deadlines import OUT_OF_TIME
 from mocap.cli import options
 from mocap.cli.directing import Directing, describe, node_of, write_contents
-from mocap.cli.option_types import TURN, Clean, Joints, Seed, Skeleton, number
-from mocap.cli.options import Building, PathReading, Sources
-from mocap.cli.outputs import check_out, open_page, print_rows, require_address, require_other, write_out
+from mocap.cli.option_types import TURN, Clean, number
+from mocap.cli.options import PathReading, Sources
+from mocap.cli.outputs import check_out, print_rows, require_other, write_out
 from mocap.cli.stages import bar, timed_stage
-from mocap.cli.tuned import TUNED
 from mocap.cli.typed_commands import ONE_EACH, OptionalValue
-from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.errors import MocapError, MocapWarning
 from mocap.files.conversion import find_files
-from mocap.methods import groups
 
 if TYPE_CHECKING:
     from mocap.body.ground_path import GroundPath
     from mocap.files.directions import Direction
     from mocap.steering.followed import Followed
 
-BUILD_FIRST = "build a graph of it first, by mocap graph {}"
+
 UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0}
-WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
+
 MEASURED = 3600.0  # seconds of a random walk, up to which its seams are measured
 INTERRUPTED = 130  # exit status
 LONGEST = 24 * 3600.0  # longest random walk, seconds
@@ -94,7 +90,7 @@ def walk(
 
     seconds = _seconds(random or "1s")
     longest_search = math.inf if deadline is None else _seconds(deadline)
-    options.require_file(graph, BUILD_FIRST.format(graph))
+    options.require_file(graph, options.BUILD_FIRST.format(graph))
     direction = directing.direction(path) if path else None
     _require_bare_direction(direction, directing, drawn, of_paths)
     line = drawn.load(path) if path and direction is None else None
@@ -219,61 +215,6 @@ def _require_one(path: Path | None, random: str | None, seed: int | None) -> Non
         raise MocapError("--seed belongs to --random: a walk along a path leaves nothing to chance.")
 
 
-def page(
-    graph: Path | None = None,
-    *,
-    out: Path | None = None,
-    address: str = "",
-    skeleton: Skeleton = None,
-    joints: Joints = (),
-) -> None:
-    """Create a web page on which a figure walks along drawn paths.
-
-    The page is one file that contains the motion graph and needs no network. It can be sent, or published on
-    a website. Without arguments, the page of the bundled clips is written and opened in the browser.
-
-    Parameters
-    ----------
-    graph : an .npz file from `mocap graph`, whose clips must not have been moved (default: a graph of the
-        bundled clips).
-    out : file to write, .html (default: walk.html).
-    address (URL) : where the page will be published, as in https://example.org/walk.html. Links to the page
-        then show a picture, which is written beside it as a .png.
-
-    Notes
-    -----
-    Example: mocap page graph.npz -o walk.html
-    """
-    _check_page(graph, address, skeleton or joints)
-    file = out or Path("walk.html")
-    check_out("page", file, formats=[".html"])
-    if graph:
-        options.require_file(graph, BUILD_FIRST.format(graph))
-    with timed_stage("loading packages"):
-        from mocap.widgets.link_picture import link_picture  # the help needs no NumPy
-        from mocap.widgets.walking_page import bundled_graph, walk_page
-
-    motions = options.load_graph(graph, skeleton, joints) if graph else bundled_graph()
-    picture = file.with_suffix(".png")
-    shown = address.rpartition("/")[0] + f"/{picture.name}" if address else ""
-    with timed_stage("making the page"):
-        text = walk_page(motions, picture=shown)
-    write_file(file, text)
-    print_rows(wrote=f"{file}, {len(text) / 1e6:.2f} MB")
-    if address:
-        write_file(picture, link_picture(motions))
-        print_rows(wrote=picture)
-    if not (graph or out or address):
-        open_page(file)
-
-
-def _check_page(graph: Path | None, address: str, skeleton: object) -> None:
-    """Raise for options of a graph without a graph, and for an address that is no URL."""
-    if graph is None and skeleton:
-        raise MocapError("--skeleton and --joints belong to a graph: the bundled clips need neither.")
-    require_address(address, "https://example.org/walk.html")
-
-
 def _seconds(text: str) -> float:
     """Parse a duration, in seconds.
 
@@ -320,92 +261,3 @@ def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "g
         motions, _ = sources.load(files_read, clips)
         motions += [editing.mirror(clip) for clip in motions if mirrored_name(clip.name) in content.names]
     return options.with_joints(graphs.load(path, motions), sources.joints)
-
-
-def crowd(
-    *,
-    members: Annotated[int, number(2, 48, int)] = 6,
-    through: Path,
-    around: Path | None = None,  # reads: name: the option's name
-    out: Path,
-    graph: Path | None = None,
-    skeleton: Skeleton = None,
-    joints: Joints = (),
-    to: Literal["bvh", "glb"] = "bvh",
-    no_film: bool = False,
-    seed: Seed = 0,
-) -> None:
-    """Plan the motion of a group, with a character for each member.
-
-    Plan the paths of a group past points and around obstacles, and let a character of a motion graph follow
-    the path of each member, in space and time. The group starts at x = 0, z = 0. Writes a motion for each
-    member, plan.png, and a film, which is crowd.mp4, or crowd.gif if imageio-ffmpeg is not installed. Files
-    with these names are replaced, and other files in the folder are not changed.
-
-    Parameters
-    ----------
-    members : number of members.
-    through : a .csv file with the points to pass in order, x, z in metres.
-    around : a .csv file with obstacles, x, z, radius in metres.
-    out : folder to write to.
-    graph : an .npz file from `mocap graph` (default: a graph of generated walks).
-    to : format of the motions.
-    no_film : do not write the film, which takes most of the time.
-
-    Notes
-    -----
-    Example: mocap crowd --members 12 --through points.csv --around discs.csv -o crowd/
-    """
-    require_folder(out)
-    from mocap.files.text import load_rows  # the help needs no NumPy
-
-    discs: Any = load_rows(around, ("x", "z", "radius")) if around else []
-    points = tuple(complex(z, x) for x, z in load_rows(through))
-    obstacles = tuple((complex(z, x), float(radius)) for x, z, radius in discs)
-    scene = groups.Scene(points, obstacles)
-    scene.check(0j)
-    walks = _walks(graph, skeleton, joints)
-    group = groups.build_group(members, seed=seed)
-    plan, search = _plan(group, scene)
-    effort = f"{search.expanded} states" if search else "steered, which is quicker"
-    print_rows(planned=f"{(len(plan.positions) - 1) / groups.RATE:.1f} s for {members} members, {effort}")
-    walkers = groups.walk_group(walks, plan, progress=bar("walking"))
-    print_rows(walked=walkers.report())
-    make_folder(out)
-    for count, motion in enumerate(walkers.motions, 1):
-        files.save(motion, out / f"member-{count:02}.{to}")
-    with replacing(out / "plan.png") as picture:
-        drawn = plotting.draw_group_plan(plan.positions, scene.points, scene.discs, radius=scene.radius)
-        drawn.savefig(picture, bbox_inches="tight")
-    if not no_film:  # even with half the frames, a .gif is three times as large as an .mp4
-        name, fps = ("crowd.mp4", 25.0) if find_spec("imageio_ffmpeg") else ("crowd.gif", 12.5)
-        widgets.save_animation(walkers.motions, out / name, discs=discs, fps=fps, progress=bar("drawing"))
-    print_rows(wrote=out)
-
-
-def _walks(path: Path | None, skeleton: Path | None, joints: Sequence[Path]) -> "graphs.MotionGraph":
-    """Load the requested graph, or build one of generated walks."""
-    if path is None and (skeleton or joints):
-        option = "--skeleton" if skeleton else "--joints"
-        raise MocapError(f"{option} belongs to --graph: the generated walks have a skeleton of their own.")
-    if path is None:
-        return graphs.prune(Building().build([datasets.sample(name) for name in WALKS]))
-    graph = options.load_graph(path, skeleton, joints)
-    if not graph.count("transition"):
-        raise NoWalk(f"{path} has no transition: no character can walk where it should.")
-    return graph
-
-
-def _plan(
-    group: "groups.GroupGraph", scene: "groups.Scene"
-) -> "tuple[groups.Configuration, groups.planning.GroupWalk | None]":
-    """Plan a path that starts towards the first point or, if that fails, to one side of it."""
-    refused: list[NoWalk] = []
-    for heading in TUNED.side_headings:
-        start = body.PlanarTransform(cmath.phase(scene.points[0]) + heading, 0.0, 0.0)
-        limits = {"most": TUNED.side_states} if heading else {}
-        try:
-            return groups.lead_group(group, scene, start=start, **limits)
-        except NoWalk as error:
-            refused.append(error)
-    raise refused[0]

@@ -25,15 +25,18 @@ Reading order (notebooks 08, 12, 17, 18)
 12. `detours`: lines around discs
 13. `direction_search`: prices of headings, discs, and the time and place of arrival
 14. `anchoring`: corrections that are spread over the steps of a walk
-15. `directing`: walks that follow a direction: they stand, wait, turn and arrive
-16. `characters`: the protocol, the pose of a step, a walk by given commands, and the delay of its response
-17. `graph_control`: a character on a motion graph, and its look-ahead
-18. `leg_reach`: inverse kinematics of a leg in closed form
-19. `held_feet`: standing feet are held while a character moves on
-20. `root_turning`: the way to steer: additional rotation about the root, longer or shorter steps, held feet
-21. `foot_turning`: additional rotation about the planted foot, as a comparison
-22. `judged_control`: one evaluation protocol for all characters
-23. `tuned`: the constants that trials chose
+15. `direction_legs`: the parts of a direction between the places where it waits
+16. `directed_walk`: a walk that follows a direction, how it arrives, and what was corrected
+17. `leg_search`: search for one leg of a direction
+18. `directing`: walks that follow a direction: they stand, wait, turn and arrive
+19. `characters`: the protocol, the pose of a step, a walk by given commands, and the delay of its response
+20. `graph_control`: a character on a motion graph, and its look-ahead
+21. `leg_reach`: inverse kinematics of a leg in closed form
+22. `held_feet`: standing feet are held while a character moves on
+23. `root_turning`: the way to steer: additional rotation about the root, longer or shorter steps, held feet
+24. `foot_turning`: additional rotation about the planted foot, as a comparison
+25. `judged_control`: one evaluation protocol for all characters
+26. `tuned`: the constants that trials chose
 
 References
 ----------

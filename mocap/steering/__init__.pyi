@@ -2,7 +2,7 @@ from .characters import Character as Character
 from .characters import CommandClock as CommandClock
 from .characters import measure_delay as measure_delay
 from .characters import steer as steer
-from .directing import Directed as Directed
+from .directed_walk import Directed as Directed
 from .directing import direct as direct
 from .direction_search import Prices as Prices
 from .followed import Followed as Followed

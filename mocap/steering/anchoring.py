@@ -78,7 +78,7 @@ def corrections(motion: Motion, anchors: Sequence[Anchor]) -> list[Correction]:
 def _turns(motion: Motion, anchors: Sequence[Anchor]) -> Array:
     """Return the rotation that each anchor needs, without jumps of 2π, radians."""
     facing = np.unwrap(headings_in(motion))
-    return np.unwrap([_wrapped(anchor.heading - facing[anchor.frame]) for anchor in anchors])
+    return np.unwrap([wrapped(anchor.heading - facing[anchor.frame]) for anchor in anchors])
 
 
 def headings_in(motion: Motion) -> Array:
@@ -155,7 +155,7 @@ def _turned_steps(track: Points, turn: Array, start: complex) -> Points:
     return np.asarray(start + np.concatenate([[0.0], np.cumsum(steps)]))
 
 
-def _wrapped(angle: float) -> float:
+def wrapped(angle: float) -> float:
     """Wrap an angle to [-π, π)."""
     return float((angle + np.pi) % (2 * np.pi) - np.pi)
 

@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from mocap.body import Motion, Skeleton, joint_positions, resample, rotations
-from mocap.cli.walk import _plan
+from mocap.cli.crowd import _plan
 from mocap.datasets import samples
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
 from mocap.errors import NoWalk
@@ -212,7 +212,7 @@ def names(folder):
 
 
 def test_a_motion_for_each_member_a_plan_and_a_film(folder, run, monkeypatch):
-    monkeypatch.setattr("mocap.cli.walk.find_spec", lambda name: None)  # no imageio-ffmpeg
+    monkeypatch.setattr("mocap.cli.crowd.find_spec", lambda name: None)  # no imageio-ffmpeg
     asked = {}
 
     def film(motions, path, **settings):
