@@ -30,7 +30,8 @@ Reading order
 21. `diagrams`: ideas drawn step by step
 22. `lab`: what students wrote is used, and what they thought is kept
 23. `marking`: marks for notebooks handed in, whose code runs sealed
-24. `teaching`: slides and films that are made from the notebooks
+24. `exam`: an exam whose numbers a teacher's key draws, and the sheet to mark it with
+25. `teaching`: slides and films that are made from the notebooks
 
 References
 ----------
