@@ -15,7 +15,7 @@ from mocap.cli.outputs import require_address
 from mocap.cli.stages import bar
 from mocap.cli.typed_commands import Group
 from mocap.course import marking
-from mocap.course.handout import WHEEL, hand_out
+from mocap.course.handout import WHEEL, hand_out, write_new
 from mocap.course.notebooks import run as run_notebook
 from mocap.course.opening import build_lite, open_course, stored
 from mocap.course.student_wheel import NotInstallable
@@ -155,6 +155,40 @@ def board(*, out: Path = Path("mocap-board")) -> None:
     print(f"wrote {len(files)} pictures to {out}; {files[-1]} shows all")
 
 
+def exam(
+    *,
+    key: Path,
+    out: Path = Path("mocap-exam"),
+    words: Annotated[
+        Path | None, 'a .toml file of your answers in words, in lines such as 28 = "..."'
+    ] = None,
+) -> None:
+    """Draw the numbers of an exam with a key of your own, and write its questions and answers.
+
+    The same key always draws the same exam. Without the key, no one knows its numbers. The package contains
+    no answers: those in numbers are computed from the drawn numbers, functions are tested with inputs whose
+    results are known, and answers in words are yours. Keep the key and answers.md away from students.
+
+    Parameters
+    ----------
+    key : a file with a secret of at least 20 characters. If it does not exist, a random key is written to it.
+    out : folder to write to: exam.md for students, answers.md for you.
+
+    Notes
+    -----
+    Example: mocap course exam --key exam.key -o exam
+    """
+    from mocap.course.exam import sheets  # the help needs no NumPy
+    from mocap.course.exam.drawing import read_key
+
+    own_words = sheets.read_words(words)
+    secret, is_new = read_key(key)
+    if is_new:
+        print(f"wrote a new key, {key}; keep it: only this key draws the same exam again")
+    write_new({out / name: content for name, content in sheets.write_exam(secret, own_words).items()})
+    print(f"wrote {out / 'exam.md'} for students, and {out / 'answers.md'} for teachers only")
+
+
 def mark(
     folder: Path,
     *,
@@ -263,5 +297,5 @@ def lab(
 
 COURSE = Group(
     "Hand out, mark, publish or run the notebooks.",
-    {command.__name__: command for command in (handout, site, slides, film, board, lite, mark, run)},
+    {command.__name__: command for command in (handout, site, slides, film, board, lite, exam, mark, run)},
 )

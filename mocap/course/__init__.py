@@ -32,7 +32,8 @@ Reading order
 23. `diagrams`: ideas drawn step by step
 24. `lab`: what students wrote is used, and what they thought is kept
 25. `marking`: marks for notebooks handed in, whose code runs sealed
-26. `teaching`: slides and films that are made from the notebooks
+26. `exam`: an exam whose numbers a teacher's key draws, and the sheet to mark it with
+27. `teaching`: slides and films that are made from the notebooks
 
 References
 ----------

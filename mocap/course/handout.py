@@ -84,12 +84,17 @@ def hand_out(
         copies.append(folder / file.name)
     if nbgrader:
         files[out / "nbgrader_config.py"] = CONFIG
-    _write_new(files)
+    write_new(files)
     return copies
 
 
-def _write_new(files: Mapping[Path, str | bytes]) -> None:
-    """Write files, none of which exists."""
+def write_new(files: Mapping[Path, str | bytes]) -> None:
+    """Write files, none of which exists.
+
+    Raises
+    ------
+    MocapError : if one exists.
+    """
     for path in files:
         if path.exists():
             raise MocapError(f"{path} exists already; choose another folder.")

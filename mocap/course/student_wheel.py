@@ -1,7 +1,7 @@
 """The package as a wheel for students, and the requirement by which a copy of a notebook installs it.
 
 The wheel is put together from the files that are installed here, or from the checkout, without a build and
-without a network. Its notebooks have no solutions, and the answers to the exam's questions are not in it.
+without a network. Its notebooks have no solutions, and a teacher's answers to the exam are left out.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ NAME = "motion-graphs"
 EXTRA = "notebooks"
 TAG = "py3-none-any"
 NOTEBOOKS = "mocap/notebooks"  # where an installed package has them
-PRIVATE = "answers"  # how the files with the answers to the exam begin, in the folder `teaching`
+PRIVATE = "answers"  # how a teacher's files with answers to the exam begin, in the folder `teaching`
 FOLDERS = ("", "examples", "slides", "teaching")  # of the notebooks
 SUFFIXES = (".ipynb", ".md", ".png", ".mp4", ".py")
 KEPT = "my_graph.py"  # functions of whoever works in this checkout
