@@ -7,12 +7,13 @@ alternative text for readers who do not see it.
 Reading order (notebooks 00 to 19)
 ----------------------------------
 1. `style`: colours that colour-blind readers can distinguish
-2. `bodies`: bodies as lines, on flat axes, and a whole walk in one picture
-3. `stick_figures`: bodies on 3D axes with a ground
-4. `grids`: distances and costs as images
-5. `charts`: curves, bands, and paths seen from above
-6. `graph_drawing`: motion graphs as timelines and as nodes with arrows
-7. `picture`: a figure as a picture in a notebook
+2. `props`: discs on the ground and boxes, as polygons
+3. `bodies`: bodies as lines, on flat axes, and a whole walk in one picture
+4. `stick_figures`: bodies on 3D axes with a ground
+5. `grids`: distances and costs as images
+6. `charts`: curves, bands, and paths seen from above
+7. `graph_drawing`: motion graphs as timelines and as nodes with arrows
+8. `picture`: a figure as a picture in a notebook
 
 References
 ----------

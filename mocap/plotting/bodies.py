@@ -19,6 +19,7 @@ from mocap.body.body_sides import head_joints, sides
 from mocap.body.motion import require_motion
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import distinct_joints
+from mocap.plotting.props import rims
 from mocap.plotting.style import (
     ASKED,
     COLOURS,
@@ -378,22 +379,3 @@ def _spaced(path: Array) -> list[int]:
         if len(chosen) <= MOST:
             return chosen
         distance *= WIDENING
-
-
-def rims(discs: ArrayLike) -> Array:
-    """Compute points on the rims of discs on the ground, shape (N, 48, 3).
-
-    Parameters
-    ----------
-    discs : shape (N, 3), x, z and radius in metres.
-
-    Examples
-    --------
-    >>> rims([[3, 4, 1]])[0, ::12].round(6).tolist()
-    [[3.0, 0.0, 5.0], [4.0, 0.0, 4.0], [3.0, 0.0, 3.0], [2.0, 0.0, 4.0]]
-    """
-    x, z, radius = np.reshape(np.asarray(discs, float), (-1, 3)).T[..., None]
-    angle = np.linspace(0, 2 * np.pi, 48, endpoint=False)
-    rim_x = x + radius * np.sin(angle)
-    rim_z = z + radius * np.cos(angle)
-    return np.stack([rim_x, np.zeros_like(rim_x), rim_z], axis=-1)

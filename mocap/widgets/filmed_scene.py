@@ -19,9 +19,9 @@ from PIL import Image, ImageDraw, ImageFont
 from scipy.ndimage import gaussian_filter1d
 
 from mocap._shared.arrays import Array
-from mocap.plotting.bodies import rims
+from mocap.plotting.props import box_faces, diamonds, rims
 from mocap.plotting.style import FLOOR, QUIET
-from mocap.widgets.shaded_picture import GROUND, YAW, ShadedPicture, blend
+from mocap.widgets.shaded_picture import GROUND, SKY, YAW, ShadedPicture, blend
 from mocap.widgets.walk_figure import capsules_at
 
 AROUND = 9  # metres of ground that are drawn on each side, beyond the characters
@@ -35,11 +35,12 @@ GRID_PIECES = 14  # pieces of a line of the grid on the ground, each of one colo
 CELLS = 30  # largest number of squares of the grid on each side of its centre
 PATH_WIDTH = 2.5  # pixels
 ASKED_WIDTH = 5  # pixels, width of the requested path
-SEAM_RADIUS = 0.07  # metres
+SEAM_RADIUS = 0.1  # metres
 FOOTPRINT_RADIUS = 0.055  # metres
 EYE_LEVEL = np.array([0, 0.9, 0])  # metres, the height at which the camera looks
 NEAREST = 4.2  # metres, the distance of the camera from a single character
 ZOOM = 1.5  # additional metres of distance for each metre between characters
+BRIGHTNESS = (0.0, 0.45, 0.2)  # of the faces of boxes that are perpendicular to x, y and z
 SMALLEST_TEXT = 10  # pixels, the height of a name
 TEXT_LINES = 26  # lines of names that fit into a picture
 FLAT = [1, 0, 1]  # factor that projects points to the ground
@@ -106,8 +107,7 @@ class FilmedScene:
         distance = NEAREST + ZOOM * self.spread
         page = ShadedPicture(size, target + EYE_LEVEL, distance, yaw=self.scene.get("yaw", YAW))
         self.draw_grid(page, np.round(target), AROUND + round(self.spread))
-        for rim in rims(self.scene["obstacles"]):
-            page.area(rim, to_rgb(QUIET))
+        self.draw_props(page)
         asked_path = np.insert(np.reshape(self.scene["asked"], (-1, 2)), 1, 0.0, axis=1)
         page.line(asked_path, blend(QUIET, GROUND, 0.3), ASKED_WIDTH)
         pieces: list[Array] = []
@@ -150,6 +150,13 @@ class FilmedScene:
             page.line(centre + np.stack([ends, zeros, offsets], axis=-1), inks, 1)
             page.line(centre + np.stack([offsets, zeros, ends], axis=-1), inks, 1)
 
+    def draw_props(self, page: ShadedPicture) -> None:
+        """Draw the discs on the ground and the boxes, whose faces differ in brightness."""
+        for rim in rims(self.scene["obstacles"]):
+            page.area(rim, to_rgb(QUIET))
+        for axis, corners in box_faces(self.scene["boxes"], page.eye):
+            page.area(corners, blend(QUIET, SKY, BRIGHTNESS[axis]))
+
     def cell(self, reach: int) -> int:
         """Return the side of the squares of a grid, metres."""
         return 1 + reach // CELLS
@@ -162,8 +169,8 @@ class FilmedScene:
         inks = (1 - paleness) * self.path_colours(number, middles) + paleness * to_rgb(GROUND)
         page.line(self.paths[number] * FLAT, inks, PATH_WIDTH)
         seams = [[*self.pose(number, seam)[0, XZ], SEAM_RADIUS] for seam in character["seams"]]
-        for rim in rims(seams):
-            page.area(rim, to_rgb(self.scene["marks"]["seam"]))
+        for diamond in diamonds(seams, page.yaw):
+            page.area(diamond, to_rgb(self.scene["marks"]["seam"]))
         for start, end, x, z, side in character["prints"]:
             if start <= time < end + FADE:
                 colour = blend(self.scene["sides"][side], GROUND, PALE * max(0.0, (time - end) / FADE))

@@ -393,7 +393,7 @@ class Player {
   /** @param {number} seconds */
   draw(seconds = 0) {
     if (this.chase) this.swing(seconds);
-    const { asked, obstacles, sides, marks } = this.scene;
+    const { asked, obstacles, boxes, sides, marks } = this.scene;
     const { drawn, pen } = this.hand;
     const dark = isDark();
     const palette = dark ? DARK : LIGHT;
@@ -405,6 +405,7 @@ class Player {
       drawn,
       pen: pen ? drawn[drawn.length - 1] : null,
       obstacles,
+      boxes,
       sides,
       marks,
       palette,

@@ -145,6 +145,7 @@ def _packed_footprints(motion: Motion) -> list[list[float]]:
 
 
 Sources = Sequence[tuple[int, str]]
+BOX = 6  # numbers of a box: x, y and z of two corners
 FAR = 0.15  # metres, the distance from the requested path beyond which the path of a walk is red
 
 
@@ -155,6 +156,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     path: ArrayLike = (),
     off: ArrayLike = (),  # reads: name: a public parameter
     discs: ArrayLike = (),
+    boxes: ArrayLike = (),
     positions: Sequence[Array] = (),
     follow: bool = True,
     alt: str = "",
@@ -173,6 +175,8 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     off : distance from that path in each frame of the first motion, shape (F,), metres, as in
         `steering.Followed.off`. Beyond 15 cm, the path of the motion is red.
     discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
+    boxes : things such as a stone or a table, shape (N, 6), x, y and z of the lowest corner, and of the
+        highest one, in metres. They are drawn behind the bodies.
     positions : the joint positions of each motion, shape (F, J, 3), metres, by default those of
         `body.joint_positions`.
     follow : whether the camera follows the first character.
@@ -187,7 +191,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     Raises
     ------
     MocapError : without a motion, and for objects that are not motions, such as a list of motions. Also if
-        there is not one name for each motion.
+        there is not one name for each motion, and for a box whose highest corner is below its lowest one.
 
     Examples
     --------
@@ -209,9 +213,24 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     points = np.reshape(np.asarray(path, float), (-1, 2))
     astray = runs(np.asarray(off, float) > FAR)
     obstacles = np.reshape(np.asarray(discs, float), (-1, 3))
+    props = _checked_boxes(boxes)
     shown = tuple(positions) or tuple(joint_positions(motion) for motion in motions)
     look: dict[str, Any] = {"follow": follow, "description": alt, "yaw": yaw}
-    return Player(motions, tuple(sources), seam_frames, points, astray, obstacles, shown, **look)
+    return Player(motions, tuple(sources), seam_frames, points, astray, obstacles, props, shown, **look)
+
+
+def _checked_boxes(boxes: ArrayLike) -> Array:
+    """Return boxes as rows of six numbers, and raise for corners in the wrong order."""
+    rows = np.asarray(boxes, float)
+    if rows.size and rows.shape[-1] != BOX:
+        raise MocapError(f"A box has six numbers, x, y, z of two corners, got shape {rows.shape}.")
+    rows = rows.reshape(-1, BOX)
+    for low, high in rows.reshape(-1, 2, 3):
+        if not (low <= high).all():
+            raise MocapError(
+                f"A box begins at its lowest corner, got {low.tolist()} and then {high.tolist()}."
+            )
+    return rows
 
 
 def _renamed(motions: Sequence[Motion], names: Sequence[str]) -> tuple[Motion, ...]:
@@ -243,6 +262,7 @@ class Player(Embedded):
     path: Array
     astray: Indices  # stretches of frames [start, end)
     discs: Array
+    boxes: Array
     positions: Sequence[Array]
     follow: bool
     description: str
@@ -282,6 +302,7 @@ class Player(Embedded):
         scene |= {"fps": fps, "frames": max(1 + round(motion.duration * fps) for motion in self.motions)}
         scene |= {} if self.yaw is None else {"yaw": self.yaw}
         scene |= {"asked": self.path.round(3).tolist(), "obstacles": self.discs.round(3).tolist()}
+        scene["boxes"] = self.boxes.round(3).tolist()
         return scene | {"characters": characters, "data": zlib.compress(data)}
 
     def _mark_first(self, character: dict[str, Any]) -> None:

@@ -32,6 +32,7 @@ import { Shading } from "./player_body.js";
  * @property {number[][]} drawn another one
  * @property {number[] | null} [pen] a position on it
  * @property {number[][]} [obstacles] discs on it (x, z, radius)
+ * @property {number[][]} [boxes] x, y and z of the lowest corner, and of the highest one
  * @property {string[]} sides the colours of a body's sides
  * @property {Partial<Marks>} marks
  * @property {Palette} palette
@@ -53,6 +54,15 @@ const TRAIL = [
   [1, 0.3],
   [0.5, 0.3],
 ];
+const BRIGHTNESS = [0, 0.45, 0.2]; // of the faces of boxes that are perpendicular to x, y and z
+// Of a face: whether the coordinate along its first and its second axis is the larger one.
+const CORNERS = [
+  [0, 0],
+  [1, 0],
+  [1, 1],
+  [0, 1],
+];
+const DIAMOND = 0.1; // metres from the middle of a diamond to its corners
 const GHOSTS = 6; // earlier poses
 const GHOST_INTERVAL = 0.25; // seconds between them
 
@@ -92,6 +102,7 @@ export class Picture {
     drawn,
     pen,
     obstacles = [],
+    boxes = [],
     sides,
     marks,
     palette,
@@ -111,6 +122,7 @@ export class Picture {
     this.camera.place(target, distance, wide, high);
     this.drawGround(target, reach);
     for (const disc of obstacles) this.drawObstacle(disc);
+    this.drawBoxes(boxes);
     /** @param {number[][]} positions */
     const flat = (positions) => positions.map(([x, z]) => [x, 0, z]);
     this.stroke([flat(asked)], palette.asked, 6, 0.75);
@@ -186,6 +198,44 @@ export class Picture {
   }
 
   /**
+   * The faces of boxes that are seen, the farthest box first, the faces on top brighter than those at the sides.
+   * @param {number[][]} boxes
+   */
+  drawBoxes(boxes) {
+    const { eye } = this.camera;
+    /** @param {number[]} box */
+    const far = (box) => Math.hypot(...eye.map((value, c) => value - (box[c] + box[c + 3]) / 2));
+    for (const box of [...boxes].sort((a, b) => far(b) - far(a))) {
+      for (const axis of [0, 1, 2]) {
+        if (eye[axis] > box[axis + 3]) this.drawFace(box, axis, box[axis + 3]);
+        else if (eye[axis] < box[axis]) this.drawFace(box, axis, box[axis]);
+      }
+    }
+  }
+
+  /**
+   * The face of a box that is perpendicular to an axis.
+   * @param {number[]} box
+   * @param {number} axis
+   * @param {number} value of the coordinate along this axis
+   */
+  drawFace(box, axis, value) {
+    const { camera, pen, palette } = this;
+    pen.beginPath();
+    for (const [upper, right] of CORNERS) {
+      const corner = [value, value, value];
+      const [second, third] = [(axis + 1) % 3, (axis + 2) % 3];
+      corner[second] = box[second + 3 * upper];
+      corner[third] = box[third + 3 * right];
+      camera.project(corner[0], corner[1], corner[2]);
+      if (camera.far > NEAR) pen.lineTo(camera.across, camera.down);
+    }
+    pen.closePath();
+    pen.fillStyle = blend(palette.line, "#ffffff", BRIGHTNESS[axis]);
+    pen.fill();
+  }
+
+  /**
    * A line on the ground from above, small in the upper right corner, as one saw it from `yaw`, and who walks on it.
    * @param {number[][]} positions
    * @param {ArrayLike<number> & Iterable<number>} walker
@@ -226,7 +276,7 @@ export class Picture {
       const near = (point) => !(Math.abs(point[3] - this.time) > seconds);
       for (const { colour, line } of character.trail) this.stroke([line.filter(near)], colour, 2.5, alpha);
     }
-    if (this.marks.seam) this.discs(character.diamonds, 0.07, this.marks.seam, 1, true);
+    if (this.marks.seam) this.drawDiamonds(character.diamonds, this.marks.seam);
     /** @type {number[][][]} */
     const strong = this.sides.map(() => []);
     /** @type {number[][][]} */
@@ -238,6 +288,34 @@ export class Picture {
       this.discs(pale[side], 0.055, colour, 0.25, true);
       this.discs(strong[side], 0.055, colour, 0.95, true);
     });
+  }
+
+  /**
+   * Diamonds on the ground, upright as the camera sees them.
+   * @param {number[][]} positions
+   * @param {string} colour
+   */
+  drawDiamonds(positions, colour) {
+    const { camera, pen } = this;
+    const [right, , back] = camera.right.map((value) => DIAMOND * value);
+    pen.beginPath();
+    for (const [x, y, z] of positions) {
+      const corners = [
+        [x + right, y, z + back],
+        [x - back, y, z + right],
+        [x - right, y, z - back],
+        [x + back, y, z - right],
+      ];
+      if (corners.some((corner) => camera.see(corner[0], corner[1], corner[2])[2] < NEAR)) continue;
+      corners.forEach((corner, k) => {
+        camera.project(corner[0], corner[1], corner[2]);
+        if (k) pen.lineTo(camera.across, camera.down);
+        else pen.moveTo(camera.across, camera.down);
+      });
+      pen.closePath();
+    }
+    pen.fillStyle = colour;
+    pen.fill();
   }
 
   drawGhosts() {

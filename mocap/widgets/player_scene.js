@@ -47,6 +47,7 @@
  * @property {number} frames
  * @property {number[][]} asked positions [x, z] of the path that was asked for
  * @property {number[][]} obstacles discs [x, z, radius]
+ * @property {number[][]} [boxes] x, y and z of the lowest corner, and of the highest one
  * @property {PackedCharacter[]} characters
  * @property {Packed} data
  */

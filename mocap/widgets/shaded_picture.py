@@ -95,6 +95,7 @@ class ShadedPicture:
         up = [-sin_yaw * sin_pitch, cos_pitch, -cos_yaw * sin_pitch]
         ahead = [-sin_yaw * cos_pitch, -sin_pitch, -cos_yaw * cos_pitch]
         self.axes = np.array([right, up, ahead])
+        self.yaw = yaw
         self.eye = target - distance * self.axes[2]
         self.focus: float = FOCUS * min(size)  # pixels
         self.size = np.array(size)

@@ -13,9 +13,9 @@ from PIL import Image, ImageDraw, ImageFont
 
 from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
-from mocap.plotting.bodies import rims
 from mocap.plotting.picture import LETTERS, SLIDE, few_colours
-from mocap.plotting.style import ASKED, QUIET
+from mocap.plotting.props import diamonds, rims
+from mocap.plotting.style import ASKED
 from mocap.widgets.filmed_scene import ASKED_WIDTH, FLAT, PATH_WIDTH, SEAM_RADIUS, XZ, FilmedScene
 from mocap.widgets.shaded_picture import FOCUS, GROUND, YAW, ShadedPicture
 from mocap.widgets.still_bodies import Body, bodies_in_rows, requested_path, walks_on_ground, yaw_of_paths
@@ -153,6 +153,7 @@ def _points_of(film: FilmedScene, bodies: list[Body]) -> Array:
         points += [path * FLAT for path in film.paths]
         points.append(requested_path(film))
         points += list(rims(film.scene["obstacles"]))
+    points.append(np.reshape(np.array(film.scene["boxes"], float), (-1, 3)))
     return np.concatenate(points)
 
 
@@ -161,8 +162,7 @@ def _draw_row(film: FilmedScene, row: list[Body], camera: _Camera) -> NDArray[np
     page = camera.page()
     numbers = sorted({body.number for body in row})
     film.draw_grid(page, np.round(camera.target * FLAT), camera.reach, GRID)
-    for rim in rims(film.scene["obstacles"]):
-        page.area(rim, to_rgb(QUIET))
+    film.draw_props(page)
     if walks_on_ground(film):
         page.line(requested_path(film), to_rgb(ASKED), ASKED_WIDTH)
         for number in numbers:
@@ -189,8 +189,8 @@ def _draw_path(page: ShadedPicture, film: FilmedScene, number: int) -> None:
     extent = float(np.ptp(film.paths[number], axis=0).max())
     radius = max(SEAM_RADIUS, SEAM_FRACTION * extent)
     seams = [[*film.pose(number, seam)[0, XZ], radius] for seam in character["seams"]]
-    for rim in rims(seams):
-        page.area(rim, to_rgb(marks["seam"]))
+    for diamond in diamonds(seams, page.yaw):
+        page.area(diamond, to_rgb(marks["seam"]))
 
 
 def _font(size: float) -> ImageFont.FreeTypeFont:

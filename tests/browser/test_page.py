@@ -369,6 +369,20 @@ def test_an_obstacle_lies_on_the_ground_where_it_is(resting):
     assert (np.abs(around - [0xBF, 0xB7, 0xA8]) < 3).all()
 
 
+def test_the_top_of_a_box_is_brighter_than_its_side(resting):
+    page = resting(play(wave(30), boxes=[[0.3, 0, 0.3, 0.8, 0.4, 0.8]]))
+
+    def at(*place):
+        x, y = page.evaluate(
+            f"{PLAYER}.camera.pixel({PLAYER}.camera.see({place[0]}, {place[1]}, {place[2]}))"
+        )
+        return colours(page)[round(y), round(x)].astype(int)
+
+    side = at(0.8, 0.2, 0.55)
+    assert (np.abs(side - [0xBF, 0xB7, 0xA8]) < 3).all()
+    assert (at(0.55, 0.4, 0.55) - side).min() > 15
+
+
 def test_a_line_behind_the_camera_is_cut_where_it_passes_it(resting):
     page = resting(play(wave(60), follow=False))
     ends = page.evaluate(f"""() => {{

@@ -25,7 +25,7 @@ from mocap.plotting.picture import Picture
 from mocap.widgets import film, play
 from mocap.widgets.embedding import Embedded
 from mocap.widgets.filmed_scene import FilmedScene, stored_scene
-from mocap.widgets.shaded_picture import ShadedPicture
+from mocap.widgets.shaded_picture import TWICE, ShadedPicture
 from tests.refusals import refused
 from tests.strategies import random_motion, seeds, wave
 
@@ -223,6 +223,23 @@ def test_obstacles_lie_on_the_ground(disc, grey):
     picture = FilmedScene(play(wave(9), discs=[disc]).scene).picture(0.0, (500, 500)).astype(int)
     share = (np.abs(picture - 0x99) < 3).all(axis=-1).mean()
     assert grey[0] <= share <= grey[1]
+
+
+def test_a_box_shows_its_top_brighter_than_its_sides():
+    scene = FilmedScene(play(wave(9), boxes=[[0.4, 0, -0.4, 1.2, 0.5, 0.4]]).scene)
+    empty = FilmedScene(play(wave(9)).scene)
+    page, plain_page = (ShadedPicture((500, 500), np.zeros(3), 5.0) for _ in range(2))
+    scene.draw_props(page)
+    empty.draw_props(plain_page)
+    top, side = (page.pixels([place])[0][0] * TWICE for place in ([0.8, 0.5, 0.0], [0.8, 0.25, 0.4]))
+    on_top, on_side = (page.paper.getpixel((round(across), round(down))) for across, down in (top, side))
+    assert min(np.subtract(on_top, on_side)) > 20
+    assert plain_page.paper.getpixel(tuple(np.round(top).astype(int).tolist())) != on_top
+
+
+def test_boxes_of_other_shapes_are_refused():
+    refused("A box has six numbers, x, y, z of two corners, got shape", play, wave(9), boxes=[[0, 0, 1]])
+    refused("begins at its lowest corner, got", play, wave(9), boxes=[[0, 0, 0, 1, -1, 1]])
 
 
 CLIP = mocap.resample(datasets.sample("walk_circle"), 30)[:90]
