@@ -37,13 +37,12 @@ def test_every_function_of_a_notebook_belongs_to_one_exercise_and_every_hint_has
     assert len(ALL) == sum(len(tomllib.loads(file.read_text("utf-8"))) for file in modules.values())
 
 
-def test_every_function_of_an_exercise_but_its_mistakes_says_what_it_does():
+def test_every_function_of_an_exercise_says_what_it_does():
     for file in checks.ANSWERS.glob("nb*.py"):
         tree = ast.parse(file.read_text("utf-8"))
         functions = [node for node in tree.body if isinstance(node, ast.FunctionDef)]
-        explained = [node for node in functions if not node.name.startswith("mistake_")]
-        assert explained, file
-        assert [node.name for node in explained if not ast.get_docstring(node)] == [], file
+        assert functions, file
+        assert [node.name for node in functions if not ast.get_docstring(node)] == [], file
 
 
 def test_a_package_function_that_a_right_answer_calls_is_its_oracle():

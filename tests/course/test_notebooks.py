@@ -60,10 +60,17 @@ def test_a_notebook_opens_with_a_picture_objectives_and_the_time(name):
 
 
 @every_notebook
-def test_a_notebook_ends_with_links_to_its_neighbours(name):
-    last, at = read(name).cells[-1].source, NAMES.index(name)
-    for neighbour in (NAMES[at - 1] if at else None, NAMES[at + 1] if at + 1 < len(NAMES) else None):
-        assert neighbour is None or f"]({neighbour}.ipynb)" in last
+def test_a_notebook_ends_with_links_along_its_sequence(name):
+    """The main sequence leads along itself, and from each number to its further parts."""
+    is_main = name[2] == "-"
+    sequence = [other for other in NAMES if other[2] == "-"] if is_main else NAMES
+    at = sequence.index(name)
+    expected = [*sequence[max(at - 1, 0) : at], *sequence[at + 1 : at + 2]]
+    if is_main:
+        expected += [other for other in NAMES if other[:2] == name[:2] and other != name]
+    last_line = read(name).cells[-1].source.splitlines()[-1]
+    assert re.findall(r"\]\(([\w-]+)\.ipynb\)", last_line) == expected
+    assert last_line.count("→") == (at + 1 < len(sequence)) and last_line.count("←") == (at > 0)
 
 
 @every_notebook

@@ -2,7 +2,10 @@
 
 import re
 
-from mocap.course import checks
+import pytest
+import reading_minutes  # of the folder figures
+from nbformat.v4 import new_code_cell, new_markdown_cell
+
 from mocap.course.marked_values import marked
 from tests.course.stored_notebooks import FOLDER, NAMES, PAGES, every_notebook, markdown, read
 from tests.loops import for_each
@@ -83,27 +86,21 @@ def test_words_are_plain(page):
     assert re.findall(rf"(?i)\b(?:{UNUSUAL}|{PER})\b", text) == []
 
 
-def minutes(name):
-    """Work out how long a notebook takes: 180 words and seven lines of code per minute, then the tasks.
-
-    An exercise takes what its table says. A bet is part of its experiment, as the prediction was.
-    """
-    total = 0
-    for cell in read(name).cells:
-        if cell.cell_type == "markdown":
-            text = re.sub(r"```.*?```|<!--.*?-->|<[^>]*>", "", cell.source, flags=re.DOTALL)
-            total += len(text.split()) / 180
-        else:
-            kinds = [tag.partition(":") for tag in cell.metadata.get("tags", ())]
-            total += sum(bool(line.strip()) for line in cell.source.splitlines()) * 8 / 60
-            total += cell.source.count("lab.quiz(") / 2 + 4 * any(kind == "experiment" for kind, *_ in kinds)
-            total += sum(checks.all_checks()[check].minutes for kind, _, check in kinds if kind == "exercise")
-    return total
+def test_what_a_student_reads_and_does_is_counted():
+    text = "One ![a picture](a.png)<!--= x --> two three.\n\n```python\nx = 1\n```\n\n## Read on\n\nA book."
+    cells = [
+        new_markdown_cell(text),
+        new_code_cell("a = 1\n\nlab.quiz('a')", metadata={"tags": ["experiment:a"]}),
+        new_code_cell("def climb(): ...", metadata={"tags": ["exercise:climb"]}),
+    ]
+    counted = reading_minutes.contents(cells)
+    assert counted == (3, 3, 1, 1, 14)
+    assert counted.minutes == pytest.approx(3 / 120 + 3 * 8 / 60 + 0.5 + 4 + 14)
 
 
 @every_notebook
 def test_the_minutes_are_honest(name):
     text = "\n".join(cell.source for cell in read(name).cells)
     stated = int(re.search(r"\*\*About (\d+) minutes", text)[1])
-    assert abs(stated - minutes(name)) <= 5
-    assert stated <= 90
+    assert abs(stated - reading_minutes.contents(read(name).cells).minutes) <= 2
+    assert stated <= 95

@@ -6,10 +6,10 @@ from itertools import chain
 from tomllib import loads
 
 import pytest
-from nbformat.v4 import new_markdown_cell, new_notebook
+import reading_minutes  # of the folder figures
+from nbformat.v4 import new_markdown_cell
 
 from mocap.course.exam.sheets import PRACTICE, answers
-from tests.course import test_prose
 from tests.course.stored_notebooks import FOLDER, NAMES, ROOT, read
 
 PLAN = (FOLDER / "README.md").read_text("utf-8")
@@ -33,13 +33,7 @@ def sections(name):
             heading = re.match(r"##? (.*)", piece.source) if piece.cell_type == "markdown" else None
             at = heading[1] if heading else at
             parts.setdefault(at, []).append(piece)
-    return {at: minutes_of(cells) for at, cells in parts.items()}
-
-
-def minutes_of(cells):
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(test_prose, "read", lambda _: new_notebook(cells=cells))
-        return test_prose.minutes("")
+    return {at: reading_minutes.contents(cells).minutes for at, cells in parts.items()}
 
 
 def parts(cell):
