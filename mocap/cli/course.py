@@ -19,6 +19,7 @@ from mocap.course.handout import WHEEL, hand_out, write_new
 from mocap.course.notebooks import run as run_notebook
 from mocap.course.opening import build_lite, open_course, stored
 from mocap.course.student_wheel import NotInstallable
+from mocap.course.written import Answer
 from mocap.errors import MocapError
 
 Points = Annotated[Path | None, "a .toml file of lines EXERCISE = POINTS (default: 1 each)"]
@@ -195,6 +196,7 @@ def mark(
     out: Path = Path("marks.csv"),
     points: Points = None,
     roster: Annotated[Path | None, "the .csv file of students, exported from Moodle or Canvas"] = None,
+    written: Annotated[Path | None, "OUT-written.csv, in which a person has filled in the points"] = None,
     feedback: Annotated[Path | None, "folder to write to, with an HTML page for each student"] = None,
     partial: Annotated[bool, "give a wrong function the fraction of its points on which it is right"] = False,
     jobs: Annotated[int, number(1, 64, int), "number of notebooks that are marked at a time"] = 1,
@@ -204,18 +206,18 @@ def mark(
 ) -> int:
     """Mark a folder of submitted notebooks, and write .csv files.
 
-    There are five .csv files: OUT has a line for each exercise, OUT-table has a line for each student,
-    OUT-moodle and OUT-canvas have the columns that Moodle and Canvas import, and OUT-written has the answers
-    in words, for a person. The page OUT-class.html shows which exercises the class solved, and the most
-    frequent mistakes. The last three columns of OUT are for the teacher alone and change no mark: a note
-    names what a solution uses by which an answer could have been taken over, and the other two say whether
-    a function is the same as the published solution, or as those of other students. The last line accounts
-    for all that was handed in, and for students of the roster who handed in nothing. The exit status is 2
-    if a person has to look at something. Each notebook runs in its own process, with a new home folder,
-    few environment variables, and limits of time, memory, processes and files. The first line of the
-    output reports the isolation on this system: whether a notebook can read or write files outside Python
-    and its home folder, and whether it has a network. If you do not trust the submissions, first read
-    "Hand out, and mark" in notebooks/README.md.
+    There are five .csv files: OUT has a line for each exercise, OUT-table has a line for each student, OUT-
+    moodle and OUT-canvas have the columns that Moodle and Canvas import, and OUT-written has the answers in
+    words, for a person, whose points --written adds to the marks. The page OUT-class.html shows which
+    exercises the class solved, and the most frequent mistakes. The last three columns of OUT are for the
+    teacher alone and change no mark: a note names what a solution uses by which an answer could have been
+    taken over, and the other two say whether a function is the same as the published solution, or as those of
+    other students. The last line accounts for all that was handed in, and for students of the roster who
+    handed in nothing. The exit status is 2 if a person has to look at something. Each notebook runs in its
+    own process, with a new home folder, few environment variables, and limits of time, memory, processes and
+    files. The first line of the output reports the isolation on this system: whether a notebook can read or
+    write files outside Python and its home folder, and whether it has a network. If you do not trust the
+    submissions, first read "Hand out, and mark" in notebooks/README.md.
 
     Parameters
     ----------
@@ -228,7 +230,7 @@ def mark(
     """
     tell = functools.partial(print, file=sys.stderr)
     if container:
-        files = {"": folder, "--points": points, "--roster": roster}
+        files = {"": folder, "--points": points, "--roster": roster, "--written": written}
         results = {"--out": out, "--feedback": feedback}
         options = ["--jobs", str(jobs), *(["--partial"] if partial else [])]
         return marking.container.mark_in_container(files, results, options, tell)
@@ -236,24 +238,56 @@ def mark(
     worth = marking.grades.read_points(points)
     students = marking.rosters.read_roster(roster)
     require_writable(out)
+    answers = marking.written_answers(folder)
+    table_of_answers = out.with_stem(f"{out.stem}-written")
+    in_words = _points_in_words(written, table_of_answers, answers, worth)
     marks: list[marking.grades.Mark] = []
     grades: list[marking.grades.Grade] = []
     for marks_of_notebook in marking.mark(folder, bar("marking"), tell, jobs, partial_points=partial):
         marks += marks_of_notebook
-        grades = marking.grades.grade(marks, worth, students)
-        for end, text in marking.grades.tables(marks, grades, worth, out.stem).items():
-            write_file(out.with_stem(f"{out.stem}{end}"), text)  # before the next notebook runs
-    written = marking.grades.written_table(marking.written_answers(folder))
-    write_file(out.with_stem(f"{out.stem}-written"), written)
+        grades = _write_tables(marks, worth, students, out)  # before the next notebook runs
+    right = sum(mark.right for mark in marks)
+    judged = sum(bool(mark.exercise) for mark in marks)
+    if in_words:
+        marks += in_words.marks
+        worth["written"] = in_words.possible
+        grades = _write_tables(marks, worth, students, out)
+    write_file(table_of_answers, marking.grades.written_table(answers, in_words.texts if in_words else ()))
     page = marking.class_page.class_page(grades, out.stem)
     write_file(out.with_name(f"{out.stem}-class.html"), page)
     if feedback:
         print(f"wrote {len(marking.grades.write_feedback(grades, worth, feedback))} pages to {feedback}")
-    right = sum(mark.right for mark in marks)
-    print(f"wrote {out} and five more: {right} of {sum(bool(mark.exercise) for mark in marks)} are right")
+    print(f"wrote {out} and five more: {right} of {judged} are right")
     said, needs_person = marking.grades.account(marks, grades)
+    if in_words and in_words.without:
+        said = f"{said}; answers in words without points: {in_words.without}"
+        needs_person = True
     print(said, file=sys.stderr)
     return 2 if needs_person else 0
+
+
+def _points_in_words(
+    file: Path | None, replaced: Path, answers: Sequence[Answer], worth: marking.grades.Points
+) -> marking.written_points.GivenPoints | None:
+    """Read the points of answers in words, if there is a file, and else refuse to replace a table of them."""
+    if file:
+        return marking.written_points.read_given_points(file, answers, worth)
+    if marking.written_points.has_points(replaced):
+        raise MocapError(f"{replaced} has points of a person: give it to --written, or change --out.")
+    return None
+
+
+def _write_tables(
+    marks: Sequence[marking.grades.Mark],
+    worth: marking.grades.Points,
+    students: marking.rosters.Roster,
+    out: Path,
+) -> list[marking.grades.Grade]:
+    """Write the tables of the marks so far, and return the grades."""
+    grades = marking.grades.grade(marks, worth, students)
+    for end, text in marking.grades.tables(marks, grades, worth, out.stem).items():
+        write_file(out.with_stem(f"{out.stem}{end}"), text)
+    return grades
 
 
 def run(notebooks: Sequence[Path] = ()) -> None:

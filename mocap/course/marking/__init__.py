@@ -20,9 +20,10 @@ Reading order
 12. `rosters`: who the students are
 13. `likeness`: functions that are the published solution, or another student's
 14. `grades`: points, tables for spreadsheets, Moodle and Canvas, the closing account, and feedback
-15. `class_page`: what the class misunderstood
-16. `marks`: judge each exercise of each notebook
-17. `container`: the whole command in a container, if that is asked for
+15. `written_points`: the points that a person gave to answers in words
+16. `class_page`: what the class misunderstood
+17. `marks`: judge each exercise of each notebook
+18. `container`: the whole command in a container, if that is asked for
 """
 
 from mocap._shared import faces

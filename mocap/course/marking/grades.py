@@ -30,6 +30,7 @@ from mocap.course.written import KIND, MOST_LETTERS, Answer
 from mocap.errors import MocapError, printable
 
 LONGEST = 300  # characters of a cell
+HEADER_OF_WRITTEN = ("handed in", "question", "answer", "points")
 FORMULA = ("=", "+", "-", "@", "\t")  # how cells begin that a spreadsheet computes
 PAGE = Template(Path(__file__).with_name("feedback.html").read_text("utf-8"))
 
@@ -60,6 +61,7 @@ class Mark(NamedTuple):
     passed : the fraction of the random inputs on which a wrong answer is right, if that earns points.
     published : whether it is the published solution.
     tree : the syntax tree of the function as text, or "", by which it is compared with those of others.
+    awarded : the points that a person gave; None if they follow from the check.
 
     Examples
     --------
@@ -76,9 +78,12 @@ class Mark(NamedTuple):
     passed: float = 0.0
     published: bool = False
     tree: str = ""
+    awarded: float | None = None
 
     def earned(self, points: float) -> float:
         """Return the points that it earns, of those of the exercise."""
+        if self.awarded is not None:
+            return self.awarded
         if self.right:
             return points
         return round(points * self.passed, 2) if self.passed else 0
@@ -252,21 +257,28 @@ def _line_of(student: Grade, columns: Sequence[str]) -> tuple[object, ...]:
 def _text(header: Sequence[object], rows: Iterable[Sequence[object]]) -> str:
     """Write the text of a .csv file."""
     text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows(map(_cell, row) for row in (header, *rows))
+    csv.writer(text, lineterminator="\n").writerows(map(safe_cell, row) for row in (header, *rows))
     return text.getvalue()
 
 
-def written_table(answers: Iterable[Answer]) -> str:
-    """Write answers in words as the text of a .csv file, with a column for the points that a person gives."""
-    header = ("handed in", "question", "answer", "points")
-    rows = [(answer.handed_in, answer.question, _cell(answer.text, MOST_LETTERS), "") for answer in answers]
+def written_table(answers: Sequence[Answer], awarded: Sequence[str] = ()) -> str:
+    """Write answers in words as the text of a .csv file, with a column for the points that a person gives.
+
+    Parameters
+    ----------
+    answers : that were handed in.
+    awarded : the points that they have already, as texts; none by default.
+    """
     text = io.StringIO()
-    table = [(*map(_cell, row[:2]), *row[2:]) for row in rows]
-    csv.writer(text, lineterminator="\n").writerows([header, *table])
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(HEADER_OF_WRITTEN)
+    for answer, points in zip(answers, awarded or [""] * len(answers), strict=True):
+        words = safe_cell(answer.text, MOST_LETTERS)
+        table.writerow((safe_cell(answer.handed_in), safe_cell(answer.question), words, points))
     return text.getvalue()
 
 
-def _cell(value: object, longest: int = LONGEST) -> object:
+def safe_cell(value: object, longest: int = LONGEST) -> object:
     """Make a text safe: one line of visible characters, and no formula."""
     if not isinstance(value, str):
         return value

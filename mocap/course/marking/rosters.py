@@ -71,6 +71,17 @@ def _lines(text: str) -> list[list[str]]:
     return list(csv.reader(io.StringIO(text), delimiter=separator))
 
 
+def read_lines(file: Path) -> list[list[str]]:
+    """Read the lines of a .csv file, as spreadsheets and learning platforms save it.
+
+    Raises
+    ------
+    MocapError : if the file cannot be read.
+    """
+    lines: list[list[str]] = read_table(file, _lines)
+    return lines
+
+
 def read_roster(file: Path | None) -> list[dict[str, str]]:
     """Read who the students are from a .csv file that Moodle or Canvas has written.
 
@@ -85,7 +96,7 @@ def read_roster(file: Path | None) -> list[dict[str, str]]:
     """
     if file is None:
         return []
-    lines = read_table(file, _lines)
+    lines = read_lines(file)
     header = lines[0] if lines else []
     if not {*NAMES, *MORE_NAMES} & {*header}:
         raise MocapError(
