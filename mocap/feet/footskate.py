@@ -4,16 +4,15 @@ Captured feet drift while they stand, and blended feet slide. Each footplant get
 the positions of the ankle follow (2). The root moves so that both legs reach them (3), the legs bend (4), and
 around each plant the corrections fade in and out (5).
 
-Four things differ from the paper. Step 5 is taken with step 2, as the smoothest curve instead of fades. While
-only the ball stands, the foot rotates about it as the knee requires. The root only rises or falls, by at
-most 2 cm, the pelvis lists by at most 4°, and no bone is stretched, because a skeleton's lengths are fixed.
-And the root, the pelvis and all knees minimise one sum, that of step 5, in which the angle of a knee has the
-largest weight, so that no knee pops at any frame rate.
+Five things differ from the paper. Step 5 is taken with step 2, as the smoothest curve instead of fades. While
+only the ball stands, the foot rotates about it as the knee requires. The toes keep their tilt. The root
+only rises or falls, by at most 2 cm, the pelvis lists by at most 4°, and no bone is stretched, because a
+skeleton's lengths are fixed. And the root, the pelvis and all knees minimise one sum, that of step 5, in
+which the angle of a knee has the largest weight, so that no knee pops at any frame rate.
 
-A plant that the leg cannot reach, or
-that would still jolt a knee, is moved to where its foot was then. If that does not help, the plant is
-shortened to the frames that can be held: those that are left when the frames in which its joint is furthest
-from its place are released, until no bound is exceeded.
+A plant that the leg cannot reach, or that would still jolt a knee, is moved to where its foot was then. If
+that does not help, the plant is shortened to the frames that can be held: those that are left when the frames
+in which its joint is furthest from its place are released, until no bound is exceeded.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -26,13 +25,13 @@ from mocap._shared.arrays import Array, Mask, runs
 from mocap.body.kinematics import GlobalPoses, forward_kinematics
 from mocap.body.legs import Leg
 from mocap.body.limbs import find_legs
-from mocap.body.motion import Motion, require_motion
+from mocap.body.motion import Motion, require_motion, rotating_joints
 from mocap.errors import MocapError, shortened, warn
 from mocap.feet.ankle_targets import FootTarget, foot_target
 from mocap.feet.footplants import least_frames, settle
 from mocap.feet.hip_heights import Pelvis, find_pelvis, listed_rotations
 from mocap.feet.least_bending import MOST, Excess, Held, hold_plants
-from mocap.feet.leg_track import UP, LegTrack, pose_leg, track_leg
+from mocap.feet.leg_track import UP, LegTrack, kept_toes, pose_leg, track_leg
 from mocap.feet.releasing import plant_deviations, release
 from mocap.feet.tuned import TUNED
 
@@ -61,9 +60,9 @@ def clean_up(
     -------
     The same frames. Within each plant its joint stays in one position, except for rounding. The root's height
     differs by at most 2 cm for a leg of 0.85 m, and the pelvis lists by at most 4° further. The rotations of
-    hips, knees and ankles differ, and those of the joints that keep the trunk's direction. Contacts are
-    settled: gaps shorter than 0.05 s are closed, and plants as short are no longer marked, nor are frames
-    that are let go.
+    hips, knees and ankles differ, and those of the joints that keep the trunk's direction and the toes' tilt.
+    Contacts are settled: gaps shorter than 0.05 s are closed, and plants as short are no longer marked, nor
+    are frames that are let go.
 
     Raises
     ------
@@ -96,8 +95,11 @@ def clean_up(
     marks, solution = _solve(tracks, pelvis, settled, held)
     pose = listed_rotations(motion, pelvis, legs, global_poses, solution.angle)
     listed = pelvis.rotation(solution.angle)
+    rotating = rotating_joints(motion)
     for target, (bend, wanted) in zip(solution.targets, solution.poses, strict=True):
         pose[:, target.track.leg[:3]] = pose_leg(target.track, bend, wanted, target.turn, listed)
+        if target.track.leg.has_ball and rotating[target.track.leg.ball]:  # no toe bends that never did
+            pose[:, target.track.leg.ball] = kept_toes(target.track, target.turn)
     released = marks_by_joint(motion, legs, settled & ~marks)
     _warn_of_plants_let_go(motion, released, MOST * tracks[0].length)
     contacts = {**motion.contacts, **marks_by_joint(motion, legs, marks)}

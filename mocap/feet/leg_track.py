@@ -179,3 +179,27 @@ def pose_leg(
         local = rotations.multiply(rotations.multiply(rotations.inverse(frame), rotation), frame)
         posed.append(rotations.multiply(local, motion.rotations[:, joint]))
     return np.stack(posed, axis=1)
+
+
+def kept_toes(track: LegTrack, turn: Array) -> Array:
+    """Compute the rotations of a ball that keep the tilt of the toes if the foot rotates.
+
+    A captured ball trembles, and the foot with it, but the toes less: the rotation of the ball relative to it
+    cancels a part. If the ball is held, the foot is still, and with the same rotation the toes would tremble.
+    Toes follow only the heading of the foot: the part of its rotation about the vertical.
+
+    Parameters
+    ----------
+    track : the leg in F frames.
+    turn : the additional rotation of the foot, shape (F, 3), rotation vectors in the world's frame.
+
+    Returns
+    -------
+    Rotations relative to the foot, shape (F, 4).
+    """
+    foot_turn = rotations.from_rotvec(turn)
+    heading = rotations.about_y(2 * np.arctan2(foot_turn[:, 2], foot_turn[:, 0]))
+    back = rotations.multiply(rotations.inverse(foot_turn), heading)
+    foot = rotations.from_matrix(track.matrices[:, track.motion.skeleton.parents[track.leg.ball]])
+    local = rotations.multiply(rotations.multiply(rotations.inverse(foot), back), foot)
+    return rotations.multiply(local, track.motion.rotations[:, track.leg.ball])

@@ -255,3 +255,27 @@ def test_a_knee_that_is_bent_backwards_keeps_its_side(name):
         assert np.all(now[back] < 1e-5)
         planted += back.sum()
     assert planted > 10
+
+
+def test_toes_keep_their_tilt_while_the_foot_rotates():
+    walk = JOINED[join]
+    foot = WALK.skeleton.index("lfoot")
+    ball = WALK.skeleton.index("ltoes")
+    tip = WALK.skeleton.index("ltoes_end")
+    before = forward_kinematics(walk)
+    after = forward_kinematics(clean_up(walk))
+    assert np.abs(after.matrices[:, foot] - before.matrices[:, foot]).max() > 1e-3  # the foot rotates
+    heights = [
+        positions[:, tip, 1] - positions[:, ball, 1] for positions in (before.positions, after.positions)
+    ]
+    assert np.abs(heights[1] - heights[0]).max() < 1e-9
+
+
+def test_the_tips_of_toes_accelerate_no_more_than_captured_ones(real_data):
+    walk = mark_plants(load(real_data / "cmu/16/16_15.amc"))
+    clean = clean_up(walk)
+    for side in "lr":
+        tip = walk.skeleton.index(f"{side}toes_end")
+        planted = clean.contacts[f"{side}toes"][1:-1]
+        before, after = (np.diff(motion.positions[:, tip], 2, axis=0)[planted] for motion in (walk, clean))
+        assert (after**2).sum() < (before**2).sum()
