@@ -31,6 +31,7 @@ def direct(
     *,
     settings: Settings | None = None,
     prices: Prices | None = None,
+    kept: Sequence[Edge] = (),
 ) -> Directed:
     """Find a walk that follows a direction: a line with times, headings, labels, waits and discs to avoid.
 
@@ -48,6 +49,7 @@ def direct(
         is 50, and 200 in a second search for a leg that misses what is asked for. Times are priced by
         `Prices.arrival` in place of `late`.
     prices : the prices of what else is asked for.
+    kept : edges of an earlier walk, which stays as it was where it can, as `PathRequest.kept`.
 
     Raises
     ------
@@ -77,7 +79,8 @@ def direct(
     """
     direction = direction if isinstance(direction, Direction) else Direction(direction)
     standing = graph if isinstance(graph, StandingGraph) else with_standing(require_graph(graph))
-    plan = _Plan(standing, direction, settings or Settings(), prices or Prices())
+    search = LegSearch(standing, direction, settings or Settings(), prices or Prices(), kept)
+    plan = _Plan(standing, direction, search)
     for leg in legs_of(direction):
         plan.add_leg(leg)
     directed = plan.directed()
@@ -93,12 +96,12 @@ class _Plan:
 
     Parameters
     ----------
-    graph, direction, settings, prices : as for `direct`.
+    graph : the graph with its standing stretches.
+    direction : what the walk follows.
+    search : finds its legs.
     """
 
-    def __init__(
-        self, graph: StandingGraph, direction: Direction, settings: Settings, prices: Prices
-    ) -> None:
+    def __init__(self, graph: StandingGraph, direction: Direction, search: LegSearch) -> None:
         stands = any(leg.stands_first or leg.stands_last for leg in legs_of(direction))
         if stands and not graph.nodes:
             missing = f"no clip of the graph stands still for {TUNED.standing_seconds:g} s"
@@ -106,7 +109,7 @@ class _Plan:
         self.direction = direction
         self.standing = graph
         self.compiled = graph.compiled
-        self.search = LegSearch(graph, direction, settings, prices)
+        self.search = search
         self.slack = max(1, round(SLACK * self.compiled.fps))
         self.edges: list[Edge] = []
         self.frames = 0

@@ -17,6 +17,7 @@ from mocap.body.planar import from_ground
 from mocap.errors import NoWalk
 from mocap.files.directions import Direction
 from mocap.graphs.compiled_graph import walk_track
+from mocap.graphs.edge_tables import Edge
 from mocap.steering.anchoring import wrapped
 from mocap.steering.detours import line_around, metres_of
 from mocap.steering.directed_walk import LATE
@@ -63,15 +64,22 @@ class LegSearch:
     standing : the graph, with its standing stretches.
     direction : the direction.
     settings, prices : the effort of the search, and the prices of deviations.
+    kept : edges of an earlier walk, which stays as it was where it can.
     """
 
     def __init__(
-        self, standing: StandingGraph, direction: Direction, settings: Settings, prices: Prices
+        self,
+        standing: StandingGraph,
+        direction: Direction,
+        settings: Settings,
+        prices: Prices,
+        kept: Sequence[Edge],
     ) -> None:
         self.standing = standing
         self.discs = [(complex(z, x), radius) for x, z, radius in direction.around]
         self.settings = settings
         self.prices = prices
+        self.kept = kept
         self.deadline = Deadline(settings.deadline)
         self.compiled = standing.compiled
         nodes = self.compiled.nodes
@@ -105,7 +113,9 @@ class LegSearch:
         labels = [
             (place, point.label) for place, point in zip(metres, leg.points, strict=True) if point.label
         ]
-        route = make_route(self.compiled, GroundPath(from_ground(line)), PathRequest(labels=labels))
+        route = make_route(
+            self.compiled, GroundPath(from_ground(line)), PathRequest(labels=labels, kept=self.kept)
+        )
         times = []
         for place, point in zip(metres[1:], leg.points[1:], strict=True):
             if point.t is not None:
