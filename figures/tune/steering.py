@@ -157,6 +157,14 @@ def directed(clips: Clips) -> Row:
     return row | {"spread, °": float(np.degrees(max((abs(part.radians) for part in corrected), default=0.0)))}
 
 
+def timed(clips: Clips) -> Row:
+    """Follow a direction with two times, from a stand."""
+    points = [DirectedPoint(0, 0), DirectedPoint(0, 4, t=6.0), DirectedPoint(4, 5, t=11.0)]
+    walk = direct(graph_of(clips).source, Direction(points, start="stand", end="stand"))
+    late = max(abs(arrival.late) for arrival in walk.arrivals if arrival.point.t is not None)
+    return {"late, s": late, "spread, cm": 100 * max(part.metres for part in walk.corrections)}
+
+
 # reads: statement: a table
 TRIALS = {
     "route_spacing": Trial(search, (0.2, 0.005, 0.01, 0.05)),
@@ -193,6 +201,8 @@ TRIALS = {
     "clearances": Trial(directed, ((0.4, 0.4), (1.0, 0.4))),
     "settled_seconds": Trial(directed, (0.0, 0.4)),
     "arrival": Trial(directed, (0.3, 0.6, 2.0)),
+    "starting_metres": Trial(timed, (0.0, 0.25, 1.0)),
+    "pace_percentiles": Trial(timed, ((25.0, 75.0), (50.0, 99.0), (75.0, 90.0))),
     "overshoot": Trial(directed, (0.5, 3.0)),
     "turned_from": Trial(directed, (0.2, 1.0)),
 }

@@ -6,13 +6,18 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
+from mocap._shared.atomic import write_file
 from mocap.cli.option_types import number
+from mocap.cli.options import PathReading
 from mocap.cli.outputs import check_out, print_rows, require_output
 from mocap.cli.stages import timed_stage
 from mocap.cli.typed_commands import ONE_EACH
 from mocap.errors import MocapError, warn
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from mocap._shared.arrays import Array
     from mocap.files.directions import Direction
     from mocap.graphs.edge_tables import Edge
     from mocap.graphs.motion_graph import MotionGraph, Node
@@ -49,16 +54,18 @@ class Directing:
         if self.inspect:
             check_out("page of seams", self.inspect, [], [".html"])
 
-    def direction(self, path: Path) -> "Direction | None":
+    def direction(self, path: Path, drawn: PathReading) -> "Direction | None":
         """Read the path as a direction, with what the options ask for; None for a bare line."""
         from mocap.files.directions import DirectedPoint, Direction, is_direction, load_direction
-        from mocap.files.path_files import read_path
 
         is_given = any((self.start, self.end, self.facing is not None, self.around))
         if is_direction(path):
+            if drawn.is_given():
+                refused = "--unit, --length and --id"
+                raise MocapError(f"{path} is a direction in metres, which takes none of {refused}.")
             direction = load_direction(path)
         elif is_given:
-            line = read_path(path, None, None, None, {})
+            line = drawn.load(path)
             direction = Direction([DirectedPoint(x, z) for x, z in line.points.tolist()])
         else:
             return None
@@ -121,6 +128,19 @@ def write_contents(
         warn(
             f"The walk mixes clips under other licences with {barred[0][:80]}: it is not for commercial use."
         )
+
+
+def write_seams(
+    page: Path, graph: "MotionGraph", walk: "Sequence[Edge]", track: "Array", points: "ArrayLike"
+) -> None:
+    """Write a page that shows the seams of a walk, its track from above, and the points asked for."""
+    import numpy as np  # the help needs no NumPy
+
+    from mocap.course.lab.choices import of_walk
+    from mocap.course.lab.showing import TABS, Inspector
+
+    write_file(page, Inspector(of_walk(graph, list(walk)), TABS, track, np.asarray(points, float)).page())
+    print_rows(wrote=page)
 
 
 def table_of(out: Path) -> Path:

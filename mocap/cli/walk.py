@@ -3,16 +3,15 @@
 import math
 import re
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 from mocap import editing, graphs, steering
-from mocap._shared.atomic import write_file
 from mocap._shared.deadlines import OUT_OF_TIME
 from mocap.cli import options
-from mocap.cli.directing import Directing, describe, node_of, write_contents
+from mocap.cli.directing import Directing, describe, node_of, write_contents, write_seams
 from mocap.cli.option_types import TURN, Clean, number
 from mocap.cli.options import PathReading, Sources
 from mocap.cli.outputs import check_out, print_rows, require_other, write_out
@@ -24,11 +23,11 @@ from mocap.files.conversion import find_files
 if TYPE_CHECKING:
     from mocap.body.ground_path import GroundPath
     from mocap.files.directions import Direction
+    from mocap.graphs.edge_tables import Edge
     from mocap.steering.followed import Followed
 
-
+Walk = TypeVar("Walk", "Followed", "steering.Directed")
 UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0}
-
 MEASURED = 3600.0  # seconds of a random walk, up to which its seams are measured
 INTERRUPTED = 130  # exit status
 LONGEST = 24 * 3600.0  # longest random walk, seconds
@@ -91,8 +90,8 @@ def walk(
     seconds = _seconds(random or "1s")
     longest_search = math.inf if deadline is None else _seconds(deadline)
     options.require_file(graph, options.BUILD_FIRST.format(graph))
-    direction = directing.direction(path) if path else None
-    _require_bare_direction(direction, directing, drawn, of_paths)
+    direction = directing.direction(path, drawn) if path else None
+    _require_line(direction, label, bend)
     line = drawn.load(path) if path and direction is None else None
     request = steering.PathRequest(labels=[_label(text) for text in label])
     with timed_stage("reading the graph"):
@@ -100,24 +99,20 @@ def walk(
     writing = _Writing(out, licences_in(graph), clean)
     search = steering.Settings(width=width, progress=bar("searching"), deadline=longest_search)
     if direction is not None:
-        return writing.direct(motions, direction, search)
+        return writing.direct(motions, direction, search, directing)
     if line is None:
         return writing.walk_at_random(motions, seconds, seed or 0)
     with timed_stage("following the path"), options.named_options({"bend": "--bend"}):
-        turn = math.radians(bend or 0)
         settings = replace(search, width=width or 100)
-        followed = _follow(motions, line, request, settings, turn, directing.without)
+        follow = _follower(line, request, settings, math.radians(bend or 0))
+        followed = _without(directing.without, motions, follow)
     return writing.follow(followed, directing.inspect)
 
 
-def _require_bare_direction(
-    direction: "Direction | None", directing: Directing, drawn: PathReading, values: Mapping[str, object]
-) -> None:
+def _require_line(direction: "Direction | None", label: Sequence[str], bend: float | None) -> None:
     """Raise for options that a direction does not take."""
-    given_too = [values["label"], values["bend"], drawn.is_given(), directing.without, directing.inspect]
-    if direction is not None and any(given_too):
-        refused = "--bend, --label, --unit, --length, --id, --without and --inspect"
-        raise MocapError(f"A direction takes none of {refused}: labels are a column of its table.")
+    if direction is not None and (label or bend):
+        raise MocapError("A direction takes neither --bend nor --label: labels are a column of its table.")
 
 
 def _require_no_path_options(directing: Directing, drawn: PathReading, values: Mapping[str, object]) -> None:
@@ -155,11 +150,21 @@ class _Writing:
         return 0
 
     def direct(
-        self, motions: "graphs.MotionGraph", direction: "Direction", settings: "steering.Settings"
+        self,
+        motions: "graphs.MotionGraph",
+        direction: "Direction",
+        settings: "steering.Settings",
+        directing: Directing,
     ) -> int:
         """Find and write a walk that follows a direction."""
         with timed_stage("following the direction"):
-            directed = steering.direct(motions, direction, settings=settings)
+            standing = steering.with_standing(motions)
+
+            def follow(graph: "graphs.MotionGraph", kept: "Sequence[Edge]") -> "steering.Directed":
+                changed = replace(standing, graph=graph)
+                return steering.direct(changed, direction, settings=settings, kept=kept)
+
+            directed = _without(directing.without, standing.graph, follow)
         print_rows(walked=directed.report())
         for number_of_point, arrival in enumerate(directed.arrivals, 1):
             print_rows(**{f"point {number_of_point}": describe(arrival)})
@@ -167,6 +172,10 @@ class _Writing:
             motion = directed.motion(clean=True if self.clean else None)
         write_out(motion, self.out)
         write_contents(self.out, directed.graph, [directed.walk], self.licences, jolts=True)
+        if directing.inspect:
+            points = [(point.x, point.z) for point in direction.points]
+            track = directed.fitted.root_positions[:, [0, 2]]
+            write_seams(directing.inspect, directed.graph, directed.walk, track, points)
         return 0 if directed.stopped in ("", OUT_OF_TIME) else INTERRUPTED
 
     def follow(self, followed: "Followed", page: Path | None) -> int:
@@ -177,30 +186,42 @@ class _Writing:
         write_out(motion, self.out)
         write_contents(self.out, followed.graph, [followed.walk], self.licences, jolts=True)
         if page:
-            from mocap.course.lab.showing import inspector  # the help needs no NumPy
-
-            write_file(page, inspector(followed).page())
-            print_rows(wrote=page)
+            write_seams(page, followed.graph, followed.walk, followed.track, followed.path.points)
         return 0 if followed.found.stopped in ("", OUT_OF_TIME) else INTERRUPTED
 
 
-def _follow(
+def _follower(
+    line: "GroundPath", request: "steering.PathRequest", settings: "steering.Settings", bend: float
+) -> "Callable[[graphs.MotionGraph, Sequence[Edge]], Followed]":
+    """Return a function that follows a line in a graph, and keeps the edges of another walk where it can."""
+
+    def follow(graph: "graphs.MotionGraph", kept: "Sequence[Edge]") -> "Followed":
+        keeping = replace(request, kept=kept)
+        return steering.follow_path(graph, line, keeping, settings=settings, bend=bend)
+
+    return follow
+
+
+def _without(
+    refused: Sequence[str],
     motions: "graphs.MotionGraph",
-    line: "GroundPath",
-    request: "steering.PathRequest",
-    settings: "steering.Settings",
-    bend: float,
-    without: Sequence[str],
-) -> "Followed":
-    """Follow a path, then again without each refused seam, with the rest of the walk kept where it can be."""
+    follow: "Callable[[graphs.MotionGraph, Sequence[Edge]], Walk]",
+) -> "Walk":
+    """Find a walk, then again without each refused seam, with the rest of the walk kept where it can be.
+
+    Parameters
+    ----------
+    refused : the seams, as in walk:120.
+    motions : the graph.
+    follow : finds a walk in a graph, which keeps the edges of another one where it can.
+    """
     from mocap.steering.seam_replacing import fraction_kept, graph_without, transitions_from
 
-    followed = steering.follow_path(motions, line, request, settings=settings, bend=bend)
-    for text in without:
-        refused = transitions_from(motions, followed.walk, node_of(text, motions))
-        motions = graph_without(motions, refused)
-        kept = replace(request, kept=followed.walk)
-        changed = steering.follow_path(motions, line, kept, settings=settings, bend=bend)
+    followed = follow(motions, ())
+    for text in refused:
+        seams = transitions_from(motions, followed.walk, node_of(text, motions))
+        motions = graph_without(motions, seams)
+        changed = follow(motions, followed.walk)
         part = fraction_kept(followed.walk, changed.walk, followed.graph)
         print_rows(without=f"{text}; {part:.0%} of the frames of the walk before are kept")
         followed = changed

@@ -77,8 +77,9 @@ def corrections(motion: Motion, anchors: Sequence[Anchor]) -> list[Correction]:
 
 def _turns(motion: Motion, anchors: Sequence[Anchor]) -> Array:
     """Return the rotation that each anchor needs, without jumps of 2π, radians."""
-    facing = np.unwrap(headings_in(motion))
-    return np.unwrap([wrapped(anchor.heading - facing[anchor.frame]) for anchor in anchors])
+    facing = headings_in(motion[[anchor.frame for anchor in anchors]])
+    wanted = [anchor.heading for anchor in anchors]
+    return np.unwrap([wrapped(heading - angle) for heading, angle in zip(wanted, facing, strict=True)])
 
 
 def headings_in(motion: Motion) -> Array:

@@ -28,7 +28,7 @@ from mocap.steering.anchoring import (
     rotate_at_ends,
     wrapped,
 )
-from mocap.steering.direction_legs import place_of
+from mocap.steering.direction_legs import position_of
 from mocap.synthesis.walk_to_motion import to_motion, with_footplants
 
 FAST = 1.05  # times the limit of added rotation, above which it is reported
@@ -154,13 +154,13 @@ class Directed:
     def arrivals(self) -> list[Arrived]:
         """How the walk arrives at each point of the direction."""
         track = on_ground(self.fitted.root_positions)
-        facing = headings_in(self.fitted)
+        facing = headings_in(self.fitted[list(self.passes)])
         listed = []
-        for point, frame in zip(self.points, self.passes, strict=True):
+        for point, frame, angle in zip(self.points, self.passes, facing, strict=True):
             second = frame / self.raw.fps
-            turned = np.nan if point.heading is None else wrapped(facing[frame] - point.heading)
+            turned = np.nan if point.heading is None else wrapped(angle - point.heading)
             late = np.nan if point.t is None else second - point.t
-            distance = float(abs(track[frame] - place_of(point)))
+            distance = float(abs(track[frame] - position_of(point)))
             listed.append(Arrived(point, second, distance, turned, late))
         return listed
 

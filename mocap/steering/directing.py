@@ -9,18 +9,19 @@ import numpy as np
 from mocap.errors import NoWalk, warn
 from mocap.files.directions import DirectedPoint, Direction
 from mocap.graphs.edge_tables import Edge
-from mocap.graphs.motion_graph import MotionGraph, require_graph
+from mocap.graphs.motion_graph import MotionGraph, Node, require_graph
 from mocap.steering.anchoring import Anchor
-from mocap.steering.directed_walk import LATE, Directed, Piece, warn_of_misses
-from mocap.steering.direction_legs import Leg, legs_of, place_of
+from mocap.steering.directed_walk import Directed, Piece, warn_of_misses
+from mocap.steering.direction_legs import Leg, legs_of, position_of, spare_seconds
 from mocap.steering.direction_search import Prices
 from mocap.steering.leg_search import FoundLeg, LegSearch
 from mocap.steering.path_objective import Settings
 from mocap.steering.standing import StandingGraph, with_standing
 from mocap.steering.tuned import TUNED
-from mocap.steering.waiting import Waits, find_waits, longest_wait
+from mocap.steering.waiting import Waits, find_waits, longest_wait, wait_durations
 
 SLACK = 0.15  # seconds by which a wait may differ
+LONGER = 0.5  # seconds by which a wait may be longer than a walk at the usual pace needs to be in time
 HOLD = 0.5  # seconds for which a walk stands at its end
 
 
@@ -30,6 +31,7 @@ def direct(
     *,
     settings: Settings | None = None,
     prices: Prices | None = None,
+    kept: Sequence[Edge] = (),
 ) -> Directed:
     """Find a walk that follows a direction: a line with times, headings, labels, waits and discs to avoid.
 
@@ -44,8 +46,10 @@ def direct(
         pass `steering.with_standing(graph)`.
     direction : the direction, or its points.
     settings : the effort of the search, and the prices of deviations from the line. By default the beam width
-        is 150, and 400 in a second search for a leg that misses what is asked for.
+        is 50, and 200 in a second search for a leg that misses what is asked for. Times are priced by
+        `Prices.arrival` in place of `late`.
     prices : the prices of what else is asked for.
+    kept : edges of an earlier walk, which stays as it was where it can, as `PathRequest.kept`.
 
     Raises
     ------
@@ -75,7 +79,8 @@ def direct(
     """
     direction = direction if isinstance(direction, Direction) else Direction(direction)
     standing = graph if isinstance(graph, StandingGraph) else with_standing(require_graph(graph))
-    plan = _Plan(standing, direction, settings or Settings(), prices or Prices())
+    search = LegSearch(standing, direction, settings or Settings(), prices or Prices(), kept)
+    plan = _Plan(standing, direction, search)
     for leg in legs_of(direction):
         plan.add_leg(leg)
     directed = plan.directed()
@@ -91,12 +96,12 @@ class _Plan:
 
     Parameters
     ----------
-    graph, direction, settings, prices : as for `direct`.
+    graph : the graph with its standing stretches.
+    direction : what the walk follows.
+    search : finds its legs.
     """
 
-    def __init__(
-        self, graph: StandingGraph, direction: Direction, settings: Settings, prices: Prices
-    ) -> None:
+    def __init__(self, graph: StandingGraph, direction: Direction, search: LegSearch) -> None:
         stands = any(leg.stands_first or leg.stands_last for leg in legs_of(direction))
         if stands and not graph.nodes:
             missing = f"no clip of the graph stands still for {TUNED.standing_seconds:g} s"
@@ -104,7 +109,7 @@ class _Plan:
         self.direction = direction
         self.standing = graph
         self.compiled = graph.compiled
-        self.search = LegSearch(graph, direction, settings, prices)
+        self.search = search
         self.slack = max(1, round(SLACK * self.compiled.fps))
         self.edges: list[Edge] = []
         self.frames = 0
@@ -119,14 +124,13 @@ class _Plan:
         first = leg.points[0]
         waits = self._waits_before(first)
         heading = self.stand.heading if self.stand else first.heading
-        nodes = np.array(sorted(self.compiled.index(node) for node in waits)) if waits else None
-        wait = round(self._seconds_of_wait(first) * self.compiled.fps)
-        elapsed = (self.frames + wait) / self.compiled.fps
-        result = self.search.find(leg, heading, nodes, elapsed)
-        late = max(result.delays, default=0.0)
-        if leg.stands_first and late < -LATE / 2:
-            waits = self._longer_waits(waits, result, late)
-        self._append_leg(leg, waits, result)
+        durations = self._durations(leg, waits)
+        result = self.search.find(leg, heading, durations, self.frames / self.compiled.fps)
+        node = self.compiled.edges[result.walk.edges[0]][0]
+        wait = waits.get(node, [])
+        if self._count(wait) != result.walk.waited:
+            wait = self._wait_of(node, result.walk.waited)
+        self._append_leg(leg, wait, result)
         self.stopped = self.stopped or result.walk.stopped
 
     def directed(self) -> Directed:
@@ -166,36 +170,57 @@ class _Plan:
             warn(f"{lasts}, because no clip stands longer: add one that does.")
         return {walk[-1][1] if walk else entries[0]: walk}
 
-    def _longer_waits(self, waits: Waits, result: FoundLeg, late: float) -> Waits:
-        """Find a wait that is longer than that before a leg, by the time by which it is early (`-late`)."""
-        node = self.compiled.edges[result.walk.edges[0]][0]
-        start = self._count(waits.get(node, []))
-        edges = self.standing.edges if self.edges else self.standing.edges_back
-        entry = self.edges[-1][1] if self.edges else node
-        for frames in range(start - round(late * self.compiled.fps), start, -self.slack):
-            longer = find_waits(edges, entry, frames, self.slack)
-            walk = longer.get(node) if self.edges else next(iter(longer.values()), None)
-            if walk:
-                return {node: walk}
-        return waits
+    def _durations(self, leg: Leg, waits: Waits) -> dict[int, list[int]]:
+        """Return the frames for which the body can wait before a leg, by the numbers of nodes.
+
+        Without a time to keep, these are the waits that are asked for. With one, longer waits are added,
+        about `SLACK` seconds apart, as long as a walk at the usual pace needs to be in time.
+        """
+        durations = {self.compiled.index(node): [self._count(walk)] for node, walk in waits.items()}
+        spare = spare_seconds(leg, self.standing.paces[0], self.frames / self.compiled.fps)
+        longest = round((spare + LONGER) * self.compiled.fps)
+        if not leg.stands_first or spare <= 0:
+            return durations
+        shortest = round(self._seconds_of_wait(leg.points[0]) * self.compiled.fps)
+        for node, possible in self._possible_waits(longest).items():
+            number = self.compiled.index(node)
+            kept = durations.get(number, [])
+            for frames in possible:
+                if frames >= shortest and (not kept or frames >= kept[-1] + self.slack):
+                    kept.append(frames)
+            if kept:
+                durations[number] = kept
+        return durations
+
+    def _possible_waits(self, frames: int) -> dict[Node, list[int]]:
+        """Return the durations of the waits from which a leg can start, at most so many frames, by nodes."""
+        starts = [self.edges[-1][1]] if self.edges else sorted(self.standing.nodes)
+        durations = wait_durations(self.standing.edges, starts, frames)
+        return {node: durations[node] for node in sorted(self.standing.leaving) if node in durations}
+
+    def _wait_of(self, node: Node, frames: int) -> list[Edge]:
+        """Return a wait of so many frames that ends at a node, from where the walk is so far."""
+        if self.edges:
+            return find_waits(self.standing.edges, self.edges[-1][1], frames, 0)[node]
+        return next(iter(find_waits(self.standing.edges_back, node, frames, 0).values()))
 
     def _count(self, walk: Sequence[Edge]) -> int:
         """Count the frames of a walk."""
         return sum(self.compiled.source.graph.edges[edge]["frames"] for edge in walk)
 
-    def _append_leg(self, leg: Leg, waits: Waits, result: FoundLeg) -> None:
+    def _append_leg(self, leg: Leg, wait: Sequence[Edge], result: FoundLeg) -> None:
         """Append a wait and a leg to the walk, with the frames in which it passes its points."""
         first, *_, last = leg.points
         walk = [self.compiled.edges[edge] for edge in result.walk.edges]
         if self.stand is None:
-            self.stand = Anchor(0, place_of(first), result.facing + result.rotations[0])
+            self.stand = Anchor(0, position_of(first), result.facing + result.rotations[0])
             self.points.append(first)
             self.passes.append(0)
-        self._add_wait(waits.get(walk[0][0], []))
-        begin = self.stand.position if not leg.stands_first else place_of(first)
+        self._add_wait(wait)
+        begin = self.stand.position if not leg.stands_first else position_of(first)
         start = Anchor(self.frames, begin, result.facing)
         self._add(walk)
-        place = place_of(last) if leg.stands_last else result.position
+        place = position_of(last) if leg.stands_last else result.position
         heading = result.heading if last.heading is None else last.heading - result.rotations[1]
         end = Anchor(self.frames - 1, place, heading)
         self.pieces.append(Piece(start, end, result.rotations))

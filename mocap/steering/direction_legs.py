@@ -49,7 +49,7 @@ def legs_of(direction: Direction) -> list[Leg]:
     """
     merged: list[DirectedPoint] = []
     for point in direction.points:
-        if merged and abs(place_of(merged[-1]) - place_of(point)) < SAME:
+        if merged and abs(position_of(merged[-1]) - position_of(point)) < SAME:
             merged[-1] = _stay(merged[-1], point)
         else:
             merged.append(point)
@@ -76,7 +76,7 @@ def _stay(arrival: DirectedPoint, departure: DirectedPoint) -> DirectedPoint:
     return arrival._replace(wait=wait, heading=heading, label=departure.label or arrival.label)
 
 
-def place_of(point: DirectedPoint) -> complex:
+def position_of(point: DirectedPoint) -> complex:
     """Return the position of a point as z + ix."""
     return complex(point.z, point.x)
 
@@ -103,3 +103,30 @@ def rotations_at_ends(leg: Leg, line: Points, heading: float | None) -> tuple[fl
         turn = 0.0 if facing is None else wrapped(facing - direction)
         turns[end] = turn if abs(turn) > TUNED.turned_from else 0.0
     return turns[0], turns[1]
+
+
+def spare_seconds(leg: Leg, pace: float, elapsed: float) -> float:
+    """Return how long a body can wait before a leg, to be in time at its first point that asks for a time.
+
+    Parameters
+    ----------
+    leg : the leg.
+    pace : the pace at which it is walked, m/s.
+    elapsed : the time so far, seconds.
+
+    Returns
+    -------
+    Seconds, negative for a walk that is late; 0 if no time is asked for.
+
+    Examples
+    --------
+    >>> leg = Leg([DirectedPoint(0, 0), DirectedPoint(0, 4, t=7.0)], True, True, True)
+    >>> spare_seconds(leg, pace=1.0, elapsed=0.0)
+    3.0
+    """
+    metres = 0.0
+    for start, end in pairwise(leg.points):
+        metres += abs(position_of(end) - position_of(start))
+        if end.t is not None:
+            return float(end.t - elapsed - metres / pace)
+    return 0.0

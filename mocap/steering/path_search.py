@@ -36,7 +36,8 @@ class Found(NamedTuple):
     `edges` are numbers in the compiled graph, and p ↦ rotation · p + translation is the transform of the clip
     of the first edge. `along` is the arc length along the path in each frame, metres. `expanded` is the
     number of walks that were extended, `cut` the number of those that were dropped. `stopped` is "", or the
-    reason for which the search ended early.
+    reason for which the search ended early. `waited` is the number of frames before the first one, in which
+    the body waits, for a search that chooses among them.
     """
 
     edges: Indices
@@ -47,6 +48,7 @@ class Found(NamedTuple):
     expanded: int
     cut: int
     stopped: str
+    waited: int = 0
 
 
 def find_walk(  # noqa: PLR0913 (a search, its limits and its kind)
@@ -107,6 +109,7 @@ class PathSearch(LayeredSearch):
             self.progress = np.maximum(route.smooth.step, TUNED.creep / graph.fps)
         else:
             self.progress = graph.progress
+        self.is_timed = bool(np.isfinite(route.clock).any())
         kept = set(route.request.kept)
         self.is_new = np.array([edge not in kept for edge in graph.edges]) if kept else None
         macro_edges = graph.macro_edges
@@ -140,16 +143,15 @@ class PathSearch(LayeredSearch):
         root = self.graph.at[longer.node]
         point = route.point(longer.along)
         direction = route.directions[point]
-        is_timed = np.isfinite(route.clock).any()
         if route.smooth:
             rotation = np.exp(-1j * route.smooth.going[longer.node]) * direction
             longer = longer._replace(rotation=rotation, translation=route.at(longer.along) - rotation * root)
             in_time = longer.frames <= (longer.along / TUNED.slowest + TUNED.grace) * self.graph.fps
-            return longer.take(in_time | is_timed)
+            return longer.take(in_time | self.is_timed)
         error = longer.translation + longer.rotation * root - route.points[point]
         abreast = np.clip((error * direction.conj()).real, -macro_edges.along, macro_edges.along)
         least_step = GRAPH_TUNED.least_speed / self.graph.fps  # metres in a frame
-        least_progress = np.where(is_timed, 0.0, least_step * macro_edges.frames)
+        least_progress = np.where(self.is_timed, 0.0, least_step * macro_edges.frames)
         progress = np.maximum(macro_edges.along + route.request.correction * abreast, least_progress)
         return longer._replace(along=states.along[row] + progress)
 
@@ -183,6 +185,7 @@ class PathSearch(LayeredSearch):
         else:
             costs = _square(body - route.at(along))
             costs += prices.stray * costs**2
+        costs += self.frame_prices(states, walk, row, along, body)
         if route.bare:
             return np.asarray(np.add.reduceat(costs, first))
         if self.is_new is not None:
@@ -197,6 +200,19 @@ class PathSearch(LayeredSearch):
         costs += prices.late * np.where(np.isnan(delay), 0.0, delay) ** 2
         costs += self.crowding(body, frame)
         return np.asarray(np.add.reduceat(costs, first))
+
+    def frame_prices(
+        self, states: States, walk: Indices, row: Indices, along: Array, body: Points
+    ) -> Array | float:
+        """Return further prices of frames; 0 here, for other kinds of search to define.
+
+        Parameters
+        ----------
+        states : the walks before a step.
+        walk, row, along, body : for each frame of the step the index of its walk, its row in the arrays of
+            all frames, its arc length, and the position of the root.
+        """
+        return 0.0
 
     def _bending_costs(self, unbent: CompiledGraph, row: Indices, along: Array) -> Array:
         """Compute the costs of bending: those of added rotation, and of frames with little progress."""
@@ -275,7 +291,8 @@ class PathSearch(LayeredSearch):
         rotation = complex(walk.rotation[0])
         translation = complex(walk.translation[0])
         cost = float(walk.cost[-1])
-        return Found(edges, rotation, translation, along, cost, self.expanded, self.cut, stopped)
+        counts = (self.expanded, self.cut)
+        return Found(edges, rotation, translation, along, cost, *counts, stopped, int(walk.frames[0]))
 
 
 def too_slow(graph: CompiledGraph, nearest: str = "") -> NoWalk:

@@ -88,6 +88,14 @@ class StandingGraph:
         return frozenset(waiting_nodes)
 
     @cached_property
+    def paces(self) -> tuple[float, float]:
+        """The median speed of the frames that walk, and the one that a tenth of them exceeds, m/s."""
+        speeds = self.compiled.step * self.graph.fps
+        walking = speeds[speeds > TUNED.walking_speed]
+        usual, fast = np.percentile(walking if len(walking) else speeds, TUNED.pace_percentiles)
+        return float(max(usual, TUNED.slowest)), float(max(fast, TUNED.slowest))
+
+    @cached_property
     def headings(self) -> tuple[Array, Array]:
         """The headings of the body by its hips, at the N nodes and in the T frames of `compiled`, radians.
 

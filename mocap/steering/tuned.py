@@ -50,6 +50,8 @@ class Tuned:
     clearances: tuple[float, float] = (0.7, 0.4)  # metres from the root to a disc. 0.4 is half a walking body
     settled_seconds: float = 0.2  # seconds of standing before a walk has arrived: the last step still sways
     arrival: float = 1.0  # metres from the end within which a standing walk has arrived. 0.6 misses stops
+    starting_metres: float = 0.5  # metres in which a body that starts or stops has half its pace
+    pace_percentiles: tuple[float, float] = (50.0, 90.0)  # of the speeds of walking frames: usual and fast
     overshoot: float = 1.5  # metres that a walk may go on beyond the end before it must stand
     turned_from: float = 0.52  # radians, 30°, beyond which a body is rotated at the ends of a line
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 
 from mocap._shared.records import NamedTuple
 from mocap.graphs.edge_tables import Edge
@@ -86,6 +86,27 @@ def find_waits(edges: Edges, start: Node, frames: int, slack: int) -> Waits:
             if node not in waits:
                 waits[node] = _trace(reached, node, duration)
     return waits
+
+
+def wait_durations(edges: Edges, starts: Iterable[Node], frames: int) -> dict[Node, list[int]]:
+    """Return the durations of all waits from some nodes, at most so many frames, by their last nodes.
+
+    Examples
+    --------
+    >>> edges = {(0, 0): [Standing(((0, 0), (0, 60), 0), (0, 60), 60, 0.0)]}
+    >>> wait_durations(edges, [(0, 0)], frames=90)
+    {(0, 0): [0], (0, 60): [60]}
+    """
+    reached: list[set[Node]] = [set() for _ in range(frames + 1)]
+    reached[0].update(starts)
+    durations: dict[Node, list[int]] = {}
+    for duration, nodes in enumerate(reached):
+        for node in nodes:
+            durations.setdefault(node, []).append(duration)
+            for edge in edges.get(node, ()):
+                if duration + edge.frames <= frames:
+                    reached[duration + edge.frames].add(edge.node)
+    return durations
 
 
 def longest_wait(edges: Edges, start: Node, frames: int) -> list[Edge]:

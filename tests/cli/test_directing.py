@@ -69,3 +69,22 @@ def test_a_direction_in_a_table_is_followed_and_each_point_told(walks, run):
     motion = load_save.load(walks / "w.bvh")
     assert np.hypot(*(motion.root_positions[-1, [0, 2]] - (2, 6))) < 0.1
     assert (walks / "w.edges.csv").exists()
+
+
+def test_a_seam_of_a_direction_is_refused_and_its_seams_are_shown(walks, run):
+    run("walk walks.npz --path scene.csv --end stand -o w.bvh --inspect seams.html")
+    assert "mocap-inspector" in (walks / "seams.html").read_text("utf-8")
+    seams = [row for row in table(walks / "w.edges.csv") if row["into"]]
+    refused = f"{seams[0]['clip']}:{seams[0]['from']}"
+    told = run(f"walk walks.npz --path scene.csv --end stand --without {refused} -o v.bvh").out
+    assert told.startswith(f"without      {refused}; ")
+    changed = [f"{row['clip']}:{row['from']}" for row in table(walks / "v.edges.csv") if row["into"]]
+    assert refused not in changed
+    motion = load_save.load(walks / "v.bvh")
+    assert np.hypot(*(motion.root_positions[-1, [0, 2]] - (2, 6))) < 0.1
+
+
+def test_the_size_of_a_line_with_a_stand_is_that_of_the_option(walks, run):
+    run("walk walks.npz --path line.csv --unit 0.5 --end stand -o w.bvh")
+    motion = load_save.load(walks / "w.bvh")
+    assert np.hypot(*(motion.root_positions[-1, [0, 2]] - (0, 3))) < 0.1

@@ -38,6 +38,7 @@ def folder(tmp_path_factory):
         "0,0\n0,oops\n": ["bad.csv"],
         "-3, 5, 0.5\n": ["disc.csv"],
         "0, 0.1, 0.5\n": ["on-us.csv"],
+        "x, z, t\n0, 0, 0\n0, 4, 5\n": ["scene.csv"],
         "0, 9, -1\n": ["small.csv"],
         "at 30 hand 0 0.1 0": ["k.txt"],
     }.items():

@@ -17,7 +17,7 @@ from mocap.steering import direct, with_standing
 from mocap.steering.anchoring import Anchor, fit_to_anchors, headings_in, rotate_at_ends
 from mocap.steering.detours import along_line, around_discs
 from mocap.steering.direction_search import least_sums
-from mocap.steering.waiting import Standing, find_waits
+from mocap.steering.waiting import Standing, find_waits, wait_durations
 from mocap.synthesis.walk_to_motion import require_walk
 from tests.refusals import refused
 
@@ -63,6 +63,34 @@ def test_a_walk_arrives_in_time_by_standing_longer_and_says_so_if_it_cannot(stan
     assert abs(direct(standing, later).arrivals[-1].late) < 0.3
     with pytest.warns(MocapWarning, match="later than asked at point 2 .* no clips walk so fast"):
         direct(standing, Direction([P(0, 0), P(0, 5, t=2.0)], start="stand", end="stand"))
+
+
+def test_several_times_are_kept_by_waiting_first_and_each_wait_is_a_walk(standing):
+    asked = [P(0, 0, t=0), P(0, 4, t=6), P(4, 5, t=11)]
+    walked = direct(standing, Direction(asked, start="stand", end="stand"))
+    require_walk(walked.graph, walked.walk)
+    assert [abs(arrival.late) < 0.3 for arrival in walked.arrivals[1:]] == [True, True]
+    assert speed(walked.motion(), 30) < 0.2  # the four metres take 4 s
+
+
+def test_times_that_no_pace_keeps_leave_the_walk_as_it_is_without_times(standing):
+    ends = {"start": "stand", "end": "stand"}
+    with pytest.warns(MocapWarning, match="no clips walk so fast"):
+        hurried = direct(standing, Direction([P(0, 0), P(3, 6, t=2)], **ends))
+    assert len(hurried.raw) < 1.1 * len(direct(standing, Direction([P(0, 0), P(3, 6)], **ends)).raw)
+    assert max(part.metres for part in hurried.corrections) < 0.5
+
+
+@given(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3), st.integers(1, 9)), max_size=8))
+def test_durations_of_waits_are_those_for_which_a_wait_is_found(listed):
+    edges = {}
+    for key, (start, end, frames) in enumerate(listed):
+        edge = ((0, start), (0, end), key)
+        edges.setdefault((0, start), []).append(Standing(edge, (0, end), frames, 0.0))
+    durations = wait_durations(edges, [(0, 0)], 20)
+    for frames in range(21):
+        reached = {node for node, possible in durations.items() if frames in possible}
+        assert reached == set(find_waits(edges, (0, 0), frames, 0))
 
 
 def test_a_walk_goes_around_discs_which_its_root_does_not_enter(standing):
