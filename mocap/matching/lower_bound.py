@@ -123,7 +123,7 @@ def projections(cloud: Cloud, starts: Indices, directions: Directions) -> Single
     --------
     Two frames of two points. The second frame is 1 m higher, a distance of √D = 1 m:
 
-    >>> from mocap.matching.distance_grids import cloud
+    >>> from mocap.matching.prepared_clouds import cloud
     >>> stick = np.array([[[0.0, 0, 0], [0, 1, 2]], [[0, 1, 0], [2, 2, 0]]])
     >>> ready = cloud(stick, np.zeros(2), np.full(2, 1 / 2), 1, np.float64)
     >>> low, high = projections(ready, np.arange(2), sample_directions(ready))
@@ -184,7 +184,7 @@ def squared_reach(cloud: Cloud, below: float, longest: float) -> float:
 
     Examples
     --------
-    >>> from mocap.matching.distance_grids import cloud
+    >>> from mocap.matching.prepared_clouds import cloud
     >>> stick = np.array([[[0.0, 0, 0], [0, 1, 2]], [[0, 1, 0], [2, 2, 0]]])
     >>> ready = cloud(stick, np.zeros(2), np.full(2, 1 / 2), 1, np.float64)
     >>> round(squared_reach(ready, 0.04, 1.0) ** 0.5, 4)

@@ -168,7 +168,7 @@ def fit(a: Cloud, b: Cloud, i: Indices, j: Indices) -> Array:
 
     Examples
     --------
-    >>> from mocap.matching.distance_grids import cloud
+    >>> from mocap.matching.prepared_clouds import cloud
     >>> dot = np.array([[[0.0, 1, 0]], [[3, 1.5, 4]]])  # one point that moves
     >>> ready = cloud(dot, np.zeros(1), np.ones(1), 1, np.float64)
     >>> fit(ready, ready, np.array([0]), np.array([1]))[[0, 2, 3], 0]
@@ -226,7 +226,7 @@ def find_minima(
     --------
     A point rises and falls back to within 1 cm of its first frame:
 
-    >>> from mocap.matching.distance_grids import cloud as prepare
+    >>> from mocap.matching.prepared_clouds import cloud as prepare
     >>> points = np.array([[[0, height, 0]] for height in (1.0, 1.3, 1.6, 1.9, 1.01)])
     >>> ready = prepare(points, np.zeros(1), np.ones(1), 1, np.float64)
     >>> find_minima(ready, 0.05)[:3].round(6)

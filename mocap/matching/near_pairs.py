@@ -169,7 +169,7 @@ def pair_distances(a: Cloud, b: Cloud, pairs: Indices) -> Floats:
 
     Examples
     --------
-    >>> from mocap.matching.distance_grids import cloud
+    >>> from mocap.matching.prepared_clouds import cloud
     >>> stick = np.array([[[0.0, 0, 0], [0, 1, 0]], [[0, 0, 0], [0, 2, 0]]])  # two frames of two points
     >>> ready = cloud(stick, np.zeros(2), np.full(2, 1 / 2), 1, np.float64)
     >>> pair_distances(ready, ready, np.array([[0], [1]]))
@@ -214,7 +214,7 @@ def is_sparse(cloud: Cloud, directions: Directions, below: float) -> bool:
     --------
     All pairs of windows of a constant pose are near:
 
-    >>> from mocap.matching.distance_grids import cloud as prepare
+    >>> from mocap.matching.prepared_clouds import cloud as prepare
     >>> from mocap.matching.lower_bound import sample_directions
     >>> still = prepare(np.ones((30, 2, 3)), np.zeros(2), np.full(2, 1 / 2), 1, np.float64)
     >>> is_sparse(still, sample_directions(still), 0.04)

@@ -196,7 +196,8 @@ def judge(
       is longer or shorter than the steps.
     - foot_sliding: the foot sliding distance within a stance, mean over the footplants.
     - sliding_speed: the foot sliding speed, the 25th percentile of the slowest joint of the feet, in percent
-      of the body's speed. It detects a body that glides and has no footplants.
+      of the body's speed. It detects a body that glides and has no footplants. Feet far above the lowest
+      ones of the clip, as of a body that hangs, count neither here nor in the two measures before.
     - toes: the depth of a foot below the height at which the clip's feet stand, for a tenth of a second.
     - sunk: the depth of the lowest joint, except fingers, below the ground, y = 0, for a tenth of a second.
     - aloft: the minimum height of the lowest joint, reported if it is above 25 cm in all frames.

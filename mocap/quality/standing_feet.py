@@ -2,7 +2,8 @@
 
 A foot that slides does not stand still in the world, so it cannot be found by its speed there. It is found by
 its height: it is low, and neither rises nor falls. While it stands, it moves backwards as seen from the body,
-however the body's path was changed afterwards.
+however the body's path was changed afterwards. A foot that is far above the lowest one of the clip does not
+slide: its body may hang, climb or lie.
 """
 
 from __future__ import annotations
@@ -21,6 +22,8 @@ from mocap.quality.seam_measures import FootSliding, feet_of, foot_sliding
 
 STANDING_PERCENTILE = 15  # of a ball's heights: where it stands, even if it is lower for a moment
 HIGHEST = 0.035  # of the leg's length: a standing ball is no higher above that percentile
+GROUND_PERCENTILE = 5  # of the heights of the lower ball: the ground, even if the body hangs in most frames
+GROUND_REACH = 0.12  # of the leg's length, above the ground: a foot that is higher does not stand on it
 LEVEL = 0.2  # m/s: a standing ball rises or falls no faster
 WALKING = 0.25  # m/s: a slower body does not walk
 EVIDENCE = 0.5  # metres of the body's path over standing feet, to measure its slip
@@ -33,9 +36,10 @@ BRIEF = 0.1  # seconds: a joint that is deeper for less is not noticed
 def measure_feet(seen: Seen) -> Iterator[Measure]:
     """Measure the feet of a body whose legs are known."""
     standing = np.stack([is_standing(seen, leg) for leg in seen.legs], axis=-1)
-    yield slip(seen, standing)
-    yield _foot_sliding(seen)
-    yield _sliding_speed(seen)
+    grounded = is_near_ground(seen)
+    yield slip(seen, standing & grounded)
+    yield _foot_sliding(seen, grounded)
+    yield _sliding_speed(seen, grounded)
     yield toes(seen, standing)
 
 
@@ -45,6 +49,14 @@ def is_standing(seen: Seen, leg: Leg) -> Mask:
     length = leg.lengths(seen.motion.skeleton)[:2].sum()
     low = heights < np.percentile(heights, STANDING_PERCENTILE) + HIGHEST * length
     return np.asarray(low & (np.abs(_central_velocities(heights, seen)) < LEVEL))
+
+
+def is_near_ground(seen: Seen) -> Mask:
+    """Mark frames in which the ball of each foot, (F, legs), is near the lowest ones of the clip."""
+    heights = seen.positions[:, [leg.ball for leg in seen.legs], 1]
+    length = seen.legs[0].lengths(seen.motion.skeleton)[:2].sum()
+    ground = np.percentile(heights.min(axis=1), GROUND_PERCENTILE)
+    return np.asarray(heights < ground + GROUND_REACH * length)
 
 
 def _central_velocities(values: Array, seen: Seen) -> Array:
@@ -98,10 +110,16 @@ def weighted_median(values: Array, weights: Array) -> float:
     return float(values[order][half])
 
 
-def _foot_sliding(seen: Seen) -> Measure:
-    """Measure the foot sliding distance within the whole duration of a footplant, the mean over them."""
+def _foot_sliding(seen: Seen, grounded: Mask) -> Measure:
+    """Measure the foot sliding distance within the whole duration of a footplant, the mean over them.
+
+    Footplants that are mostly not `grounded` (F, legs) do not count.
+    """
     marked = mark_plants(seen.motion, seen.legs)
-    footplants = foot_sliding(marked, feet_of(seen.legs), positions=seen.positions)
+    footplants = []
+    for leg, is_near in zip(seen.legs, grounded.T, strict=True):
+        plants = foot_sliding(marked, feet_of([leg]), positions=seen.positions)
+        footplants += [plant for plant in plants if 2 * is_near[plant.start : plant.stop].mean() > 1]
     if not footplants:
         return Measure("foot_sliding", 0.0, LIMITS.foot_sliding, "cm", "no foot contact")
     distances = [distance_per_stance(footplant) for footplant in footplants]
@@ -127,11 +145,13 @@ def distance_per_stance(footplant: FootSliding) -> float:
     return footplant.distance * frames / max(frames - 1, 1)
 
 
-def _sliding_speed(seen: Seen) -> Measure:
-    """Measure the foot sliding speed, in percent of the body's speed."""
+def _sliding_speed(seen: Seen, grounded: Mask) -> Measure:
+    """Measure the foot sliding speed, in percent of the body's speed, if a foot is `grounded` (F, legs)."""
     feet = seen.positions[:, feet_of(seen.legs)][..., [0, 2]]
     steps = np.linalg.norm(feet[seen.step :] - feet[: -seen.step], axis=-1)
-    slowest = steps.min(axis=1) / seen.seconds
+    slowest = steps.min(axis=1)[grounded[: len(steps)].any(axis=1)] / seen.seconds
+    if not len(slowest):
+        return Measure("sliding_speed", 0.0, LIMITS.sliding_speed, "% of speed", "no foot near the ground")
     path = np.diff(seen.motion.root_positions[:, [0, 2]], axis=0)
     body_speed = float(np.linalg.norm(path, axis=-1).mean()) * seen.motion.fps
     percent = 100 * float(np.percentile(slowest, SLIDING_PERCENTILE)) / max(SLOW, body_speed)

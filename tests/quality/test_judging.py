@@ -203,6 +203,17 @@ def swinging_arm(degrees, sideways=0.0):
     return next(bend for bend in joint_bends(arm) if bend.joint == "lradius")
 
 
+def test_feet_that_hang_in_the_air_do_not_slide():
+    frames = np.arange(len(WALK))
+    is_sliding = frames >= 0.2 * len(WALK)  # to walk on a path twice as long
+    shift = np.where(is_sliding, frames - frames[is_sliding][0], 0)[:, None] / WALK.fps * [0, 0, 1.2]
+    sliding = replace(WALK, root_positions=WALK.root_positions + shift)
+    raised = replace(sliding, root_positions=sliding.root_positions + is_sliding[:, None] * [0, 0.4, 0])
+    for name in ("slip", "sliding_speed"):
+        assert measured(sliding, name).ratio > 1
+        assert measured(raised, name).ratio < 1
+
+
 def test_an_arm_that_is_nearly_straight_has_no_backwards():
     wave = np.sin(0.1 * np.arange(len(WALK)))
     nearly_straight = swinging_arm(2 + 15 * wave)
