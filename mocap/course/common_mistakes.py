@@ -28,6 +28,7 @@ INDICES = "those are indices; return a mask: an array that is True at these indi
 ANOTHER_ORDER = "the right values, but in the wrong order."
 PARTS = "your answer has {count} parts; it should have {wanted}."
 ONE_PART = "that is part {number} of {count} alone; return all {count} parts, as a tuple."
+QUATERNION = 4  # numbers of a quaternion
 SWAPPED = "these are the right parts, in reverse order."
 
 
@@ -52,6 +53,7 @@ def _moved(answer: Any, step: int) -> Any:  # noqa: ANN401
     return numbers + step
 
 
+# reads: statement: a table of sentences, each with the function that it explains
 FROM_ANSWER: dict[str, Maker] = {
     "the answer is right, but inside another list: return it without the outer brackets.": _single_item,
     "the right numbers, but nested: join them into one flat array, as np.append does.": _flat,
@@ -78,6 +80,7 @@ FROM_ANSWER: dict[str, Maker] = {
 }
 """What turns a wrong answer into the right one, by what is said then."""
 
+# reads: statement: a table of sentences, each with the function that it explains
 FROM_WANTED: dict[str, Maker] = {
     "that is the sum of the right values; return the values themselves.": np.sum,
     "that is the mean of the right values; return the values themselves.": np.mean,
@@ -257,13 +260,16 @@ def _parts_missing(attempt: Attempt) -> str:
 def _is_part(part: int, attempt: Attempt) -> bool:
     """Check whether an answer is one part of the right one."""
     answer = attempt.answer
-    items = answer if isinstance(answer, tuple) and len(answer) == 1 else [answer]
-    return _equal_arrays(items[0], attempt.wanted[part]) or _equal_signs(items[0], attempt.wanted[part])
+    is_wrapped = isinstance(answer, tuple) and len(answer) == 1
+    item = answer[0] if is_wrapped else answer
+    wanted = attempt.wanted[part]
+    return _equal_arrays(item, wanted) or _equal_signs(item, wanted)
 
 
 def _equal_signs(a: Any, b: Any) -> bool:  # noqa: ANN401
     """Compare quaternions, of which q and -q are the same."""
-    return np.ndim(b) > 1 and np.shape(b)[-1] == 4 and _equal_arrays(np.abs(a), np.abs(b))
+    are_quaternions = np.ndim(b) > 1 and np.shape(b)[-1] == QUATERNION
+    return are_quaternions and _equal_arrays(np.abs(a), np.abs(b))
 
 
 def _factor(attempts: list[Attempt]) -> str:

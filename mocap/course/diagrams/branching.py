@@ -12,6 +12,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.text import Text
 
 from mocap._shared.arrays import Points
@@ -23,6 +24,7 @@ from mocap.plotting.charts import seen_from_above
 Walk = tuple[int, ...]
 Lengths = Mapping[int, Mapping[int, float]]  # lengths[a][b] is that of the edge from a to b
 
+LONG = 7  # nodes of a walk of which only the first and last are written
 FATES = {
     **{"expanded": CURVES[0], "complete": PATH, "cut": CURVES[1]},
     **{"a dead end": "#000000", "too long": "#666666", "waiting": QUIET},
@@ -65,11 +67,13 @@ def search_events(lengths: Lengths, start: int, goal: int, longest: int) -> list
         if cost >= best:
             fate = "cut"
         elif walk[-1] == goal:
-            fate, best = "complete", cost
+            fate = "complete"
+            best = cost
+        elif len(walk) > longest:
+            fate = "too long"
         else:
-            if len(walk) <= longest:
-                added = [(cost + more, (*walk, node)) for node, more in lengths[walk[-1]].items()]
-            fate = "expanded" if added else "a dead end" if len(walk) <= longest else "too long"
+            added = [(cost + length, (*walk, node)) for node, length in lengths[walk[-1]].items()]
+            fate = "expanded" if added else "a dead end"
         waiting += sorted(added, key=lambda child: child[0], reverse=True)
         events.append(Event(walk, cost, fate, added))
     return events
@@ -105,26 +109,44 @@ def search_steps(
     events = search_events(lengths, start, goal, longest)
     _, (left, right) = plt.subplots(1, 2, figsize=(9, 4.6), layout="constrained")
     arrows = eight_node_graph(graph, ax=left).patches
-    for a, row in lengths.items():
-        for b, length in row.items():
-            middle = complex(*np.add(EIGHT_PLACES[a], EIGHT_PLACES[b]) / 2) + 0.75j * (a == b)
-            say(left, middle, f"{length:.1f}", bbox=BOX)
+    _write_lengths(left, lengths)
     colour_tree = _draw_tree(right, events)
 
     def draw(step: int) -> list[Artist]:
         shown = events[:step]
         best = min((e for e in shown if e.fate == "complete"), key=lambda e: e.cost, default=None)
-        thick = [*pairwise(best.walk if best else ())]
-        for arrow, edge in zip(arrows, graph.edges(), strict=True):
-            if (wide := 3 if edge in thick else 1.2) != arrow.get_linewidth():
-                arrow.set(color=PATH if edge in thick else COLOURS["middle"], linewidth=wide)
+        _highlight(arrows, graph.edges(), best.walk if best else ())
         left.title.set_text(f"best so far: {best.cost:.2f} long" if best else "no complete walk yet")
-        walk = shown[-1].walk if shown else ()
-        named = " → ".join(map(str, walk if len(walk) < 7 else (*walk[:3], "…", *walk[-2:])))
-        right.title.set_text(f"step {len(shown)}: {named} is {shown[-1].fate}" if shown else "")
+        right.title.set_text(f"step {len(shown)}: {_described(shown[-1])}" if shown else "")
         return [*colour_tree(shown), left.title, right.title]
 
     return draw
+
+
+def _write_lengths(ax: Axes, lengths: Lengths) -> None:
+    """Write the length of each edge beside its middle, and that of a loop above its node."""
+    for a, row in lengths.items():
+        for b, length in row.items():
+            middle = complex(*np.add(EIGHT_PLACES[a], EIGHT_PLACES[b]) / 2)
+            position = middle + 0.75j if a == b else middle
+            say(ax, position, f"{length:.1f}", bbox=BOX)
+
+
+def _highlight(arrows: Iterable[Patch], edges: Iterable[tuple[int, int]], walk: Walk) -> None:
+    """Draw the edges of a walk thick and orange, and all others as they were."""
+    highlighted = [*pairwise(walk)]
+    for arrow, edge in zip(arrows, edges, strict=True):
+        width = 3 if edge in highlighted else 1.2
+        if width != arrow.get_linewidth():
+            arrow.set(color=PATH if edge in highlighted else COLOURS["middle"], linewidth=width)
+
+
+def _described(event: Event) -> str:
+    """Return the nodes of a walk, of a long one the first and last, and what happens to it."""
+    nodes: tuple[object, ...] = event.walk
+    if len(event.walk) >= LONG:
+        nodes = (*event.walk[:3], "…", *event.walk[-2:])
+    return f"{' → '.join(map(str, nodes))} is {event.fate}"
 
 
 def _draw_tree(ax: Axes, events: list[Event]) -> Callable[[list[Event]], list[Artist]]:
@@ -134,17 +156,23 @@ def _draw_tree(ax: Axes, events: list[Event]) -> Callable[[list[Event]], list[Ar
     """
     walks = [event.walk for event in events]  # each before those that lengthen it, from left to right
     parents = {walk[:-1] for walk in walks}
-    columns = {walk: float(at) for at, walk in enumerate(walk for walk in walks if walk not in parents)}
+    leaves = [walk for walk in walks if walk not in parents]
+    columns = {walk: float(column) for column, walk in enumerate(leaves)}
     for walk in reversed([walk for walk in walks if walk in parents]):  # above the middle of its children
         columns[walk] = float(np.mean([columns[child] for child in walks if child[:-1] == walk]))
-    faces, drawn = FATES | {"waiting": "white"}, dict[Walk, tuple[Line2D, Line2D, Text]]()
+    faces = FATES | {"waiting": "white"}
+    drawn: dict[Walk, tuple[Line2D, Line2D, Text]] = {}
     for walk, x in columns.items():
         y = 1 - len(walk)
-        (line,) = ax.plot([columns.get(walk[:-1], x), x], [y + (len(walk) > 1), y], linewidth=1.5, zorder=1)
+        top = y + 1 if len(walk) > 1 else y
+        parent_x = columns.get(walk[:-1], x)
+        (line,) = ax.plot([parent_x, x], [top, y], linewidth=1.5, zorder=1)
         (dot,) = ax.plot(x, y, "o", markersize=15, zorder=2)
-        drawn[walk] = line, dot, ax.text(x, y, str(walk[-1]), ha="center", va="center", zorder=3)
-    ends = min(columns.values()), max(columns.values())
-    ax.set(xlim=(ends[0] - 0.6, ends[1] + 0.6), ylim=(0.5 - max(map(len, columns)), 0.5))
+        word = ax.text(x, y, str(walk[-1]), ha="center", va="center", zorder=3)
+        drawn[walk] = line, dot, word
+    first = min(columns.values())
+    last = max(columns.values())
+    ax.set(xlim=(first - 0.6, last + 0.6), ylim=(0.5 - max(map(len, columns)), 0.5))
     ax.set_axis_off()
     dots = [disc(face, markeredgecolor=FATES[fate]) for fate, face in faces.items()]
     ax.legend(dots, FATES, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=3, frameon=False)
@@ -176,8 +204,11 @@ def edge_lengths(graph: nx.MultiDiGraph) -> dict[int, dict[int, float]]:
 
     Notebook: 07-walks-and-search
     """
-    at = EIGHT_PLACES
-    return {a: {b: dist(at[a], at[b]) or 0.5 for b in sorted(graph.successors(a))} for a in graph}
+    lengths: dict[int, dict[int, float]] = {}
+    for a in graph:
+        successors = sorted(graph.successors(a))
+        lengths[a] = {b: dist(EIGHT_PLACES[a], EIGHT_PLACES[b]) or 0.5 for b in successors}
+    return lengths
 
 
 def from_above(

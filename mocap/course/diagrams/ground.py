@@ -45,35 +45,37 @@ def alignment(
     places = [moving, parts[0][0].apply_motion(moving)]
     places.append(parts[1][0].apply_motion(places[1]))
     corners = np.concatenate([m.root_positions[:, [0, 2]] for m in (target, *places)] + [np.zeros((1, 2))])
-    low, high = corners.min(axis=0) - 0.8, corners.max(axis=0) + 0.8
+    low = corners.min(axis=0) - 0.8
+    high = corners.max(axis=0) + 0.8
     figure = Figure(figsize=(9, 3.4), layout="constrained")
     panels = figure.subplots(1, 3, sharex=True, sharey=True)
     names = ["as the clips are", *(name for _, name in parts)]
     for number, (ax, name) in enumerate(zip(panels, names, strict=True)):
         ax.set(xlim=(high[0], low[0]), ylim=(low[1], high[1]), aspect="equal", xlabel="x (m)")
         ax.set_title(f"{number + 1}. {name}")
-        _draw_walker(ax, target, SOURCES[0], at=-1)
+        _draw_walker(ax, target, SOURCES[0], frame=-1)
         if number:
-            _draw_walker(ax, places[number - 1], FLOOR, at=0)
+            _draw_walker(ax, places[number - 1], FLOOR, frame=0)
             start, end = (complex(*m.root_positions[0, [0, 2]]) for m in places[number - 1 : number + 1])
             share = np.linspace(0, 1, 40)
-            around = start * np.exp(1j * np.angle(end / start) * share)
-            way = around if name == turn[1] else start + (end - start) * share
-            trace(ax, way, color=INK, linewidth=1, linestyle="--")
-        _draw_walker(ax, places[number], SOURCES[1], at=0)
+            arc = start * np.exp(1j * np.angle(end / start) * share)
+            route = arc if name == turn[1] else start + (end - start) * share
+            trace(ax, route, color=INK, linewidth=1, linestyle="--")
+        _draw_walker(ax, places[number], SOURCES[1], frame=0)
         ax.plot(0, 0, "+", color=INK, markersize=11)
     panels[0].set_ylabel("z (m)")
     panels[0].legend(frameon=False)
     return figure
 
 
-def _draw_walker(ax: Axes, motion: Motion, colour: str, *, at: int) -> None:
+def _draw_walker(ax: Axes, motion: Motion, colour: str, *, frame: int) -> None:
     """Draw a root's path, and at one frame a dot with an arrow in which the body faces."""
     x, z = motion.root_positions[:, [0, 2]].T
     ax.plot(x, z, color=colour, linewidth=2, label=None if colour == FLOOR else motion.name)
-    ax.plot(x[at], z[at], "o", color=colour, markersize=7)
-    here, facing = complex(x[at], z[at]), float(heading(motion.rotations[at, 0]))
-    arrow(ax, here, here + 0.8j * np.exp(-1j * facing), colour)
+    ax.plot(x[frame], z[frame], "o", color=colour, markersize=7)
+    position = complex(x[frame], z[frame])
+    facing = float(heading(motion.rotations[frame, 0]))
+    arrow(ax, position, position + 0.8j * np.exp(-1j * facing), colour)
 
 
 MOMENTS = 9
@@ -106,31 +108,40 @@ def two_distances(path: GroundPath, walk: GroundPath) -> Callable[..., list[Any]
     ground, curves = _ground_and_curves(path, walk)
     moments = np.linspace(0, walk.length, MOMENTS)[:, None]
     along = np.maximum(0, moments - moments[1] * np.linspace(1, 0, 25))  # up to each moment, (9, 25)
-    here, share, moving = walk.at(moments), np.array([*np.linspace(0, 1, 15), np.nan])[:, None], []
-    for name, point, colour, above in (
-        ("at equal arc length (Eq. 9)", path.at, CURVES[0], 4.1),
-        ("to the nearest point", lambda s: nearest_points(path, walk.at(s)), CURVES[1], 4.0),
-    ):
-        thread = point(moments) - here  # bent, so that it is seen beside the path
-        bent = here + share * thread + BEND * share * (1 - share) * thread[..., ::-1] * [1, -1]
-        apart = 100 * np.linalg.norm(walk.at(along) - point(along), axis=-1)
-        moving += [
-            _line(ground, bent, color=colour, linewidth=1.8, zorder=above),
-            _line(ground, here + thread, "o", color=colour, markersize=5, zorder=above),
-            _line(curves, np.stack([along, apart], axis=-1), color=colour, linewidth=2, label=name),
-        ]
-    moving += [_line(ground, here, "o", color=PATH, markersize=7, markeredgecolor=ASKED, zorder=5)]
-    now, highest = curves.axvline(color=QUIET, linewidth=1), curves.dataLim.y1
+    positions = walk.at(moments)
+    moving = []
+    equal_length = ("at equal arc length (Eq. 9)", path.at, CURVES[0], 4.1)
+    nearest = ("to the nearest point", lambda s: nearest_points(path, walk.at(s)), CURVES[1], 4.0)
+    for name, point, colour, layer in (equal_length, nearest):
+        targets = point(moments)
+        threads = _bent(positions, targets)
+        distances = 100 * np.linalg.norm(walk.at(along) - point(along), axis=-1)
+        curve = np.stack([along, distances], axis=-1)
+        moving.append(_line(ground, threads, color=colour, linewidth=1.8, zorder=layer))
+        moving.append(_line(ground, targets, "o", color=colour, markersize=5, zorder=layer))
+        moving.append(_line(curves, curve, color=colour, linewidth=2, label=name))
+    dots = {"color": PATH, "markersize": 7, "markeredgecolor": ASKED, "zorder": 5}
+    moving.append(_line(ground, positions, "o", **dots))
+    moment = curves.axvline(color=QUIET, linewidth=1)
+    highest = curves.dataLim.y1
     curves.set_ylim(-0.04 * highest - 0.1, 1.35 * highest + 0.1)
     curves.legend(frameon=False, loc="upper left")
 
     def draw(step: int = MOMENTS - 1) -> list[Any]:
         for line, rows in moving:
             line.set_data(*rows[: step + 1].reshape(-1, 2).T)
-        now.set_xdata([moments[step]] * 2)
-        return [now, *(line for line, _ in moving)]
+        moment.set_xdata([moments[step]] * 2)
+        return [moment, *(line for line, _ in moving)]
 
     return draw
+
+
+def _bent(starts: Array, ends: Array) -> Array:
+    """Return threads from points to points, (9, 16, 2), bent so that they are seen beside the path."""
+    share = np.array([*np.linspace(0, 1, 15), np.nan])[:, None]
+    straight = ends - starts
+    sideways = straight[..., ::-1] * [1, -1]
+    return np.asarray(starts + share * straight + BEND * share * (1 - share) * sideways)
 
 
 def _ground_and_curves(path: GroundPath, walk: GroundPath) -> tuple[Axes, Axes]:
@@ -156,5 +167,5 @@ def nearest_points(path: GroundPath, points: Array) -> Array:
     [[0.0, 2.0], [0.0, 4.0]]
     """
     fine = path.at(np.linspace(0, path.length, 1 + round(100 * path.length)))
-    apart = np.linalg.norm(points[..., None, :] - fine, axis=-1)
-    return np.asarray(fine[apart.argmin(axis=-1)])
+    distances = np.linalg.norm(points[..., None, :] - fine, axis=-1)
+    return np.asarray(fine[distances.argmin(axis=-1)])

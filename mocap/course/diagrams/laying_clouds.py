@@ -36,7 +36,7 @@ def laid(first: Motion, second: Motion, move: Callable[[Array], Array]) -> Figur
     ax = Figure(figsize=(5.4, 5), layout="constrained").add_subplot()
     places = _places(first, second, move)
     _from_above(ax, (first, second), places)(places)
-    ax.set_title(f"{_apart(first, places):.1f} cm RMS")
+    ax.set_title(f"{_rms(first, places):.1f} cm RMS")
     return ax.figure  # type: ignore[return-value]
 
 
@@ -70,18 +70,19 @@ def turning(
 
     angles = np.arange(-180, 181, 6)
     everywhere = np.stack([turned(angle) for angle in angles.tolist()])  # (A, 2, K, J, 3)
-    lefts = [_apart(first, places) for places in everywhere]
+    distances = [_rms(first, places) for places in everywhere]
     put = _from_above(ground, (first, second), everywhere)
-    curve.plot(angles, lefts, color=CURVES[0])
+    curve.plot(angles, distances, color=CURVES[0])
     (dot,) = curve.plot([], [], "o", color=PATH, markersize=9)
     curve.set(xlabel="θ (degrees)", xlim=(-190, 190), xticks=range(-180, 181, 90))
-    curve.set(ylabel="RMS distance (cm)", ylim=(0, 1.1 * max(1, *lefts)))
+    curve.set(ylabel="RMS distance (cm)", ylim=(0, 1.1 * max(1, *distances)))
     curve.spines[["top", "right"]].set_visible(False)
 
     def turn(degrees: float) -> list[Artist]:
-        left = _apart(first, places := turned(degrees))
-        ground.title.set(text=f"{degrees:g}°: {left:.1f} cm RMS".replace("-", "−"))
-        dot.set_data([degrees], [left])
+        places = turned(degrees)
+        distance = _rms(first, places)
+        ground.title.set(text=f"{degrees:g}°: {distance:.1f} cm RMS".replace("-", "−"))
+        dot.set_data([degrees], [distance])
         return [*put(places), dot, ground.title]
 
     return turn
@@ -107,7 +108,8 @@ def laying_on(first: Motion, second: Motion, *, step: int = 4) -> Figure:
     """
     a, b = (point_cloud(motion).reshape(-1, 3) for motion in (first, second))
     centred = [PlanarTransform(0.0, *-cloud.mean(0)[[0, 2]]) for cloud in (a, b)]
-    turn = PlanarTransform(align(a, b).angle * (step > 2), 0.0, 0.0)
+    angle = align(a, b).angle if step > 2 else 0.0
+    turn = PlanarTransform(angle, 0.0, 0.0)
     if step > 1:
         back = centred[0].inverse() if step > 3 else PlanarTransform(0.0, 0.0, 0.0)
         first = (back @ centred[0]).apply_motion(first)
@@ -120,11 +122,12 @@ def laying_on(first: Motion, second: Motion, *, step: int = 4) -> Figure:
 
 def _places(first: Motion, second: Motion, move: Callable[[Array], Array]) -> Array:
     """Give the joints of both windows, the second one's moved: shape (2, K, J, 3)."""
-    p, q = joint_positions(first), joint_positions(second)
+    p = joint_positions(first)
+    q = joint_positions(second)
     return np.stack([p, np.reshape(move(q.reshape(-1, 3)), q.shape)])
 
 
-def _apart(first: Motion, places: Array) -> float:
+def _rms(first: Motion, places: Array) -> float:
     p, q = places[:, :, distinct_joints(first.skeleton)]
     return 100 * float(np.sqrt(((p - q) ** 2).sum(-1).mean()))
 
@@ -136,7 +139,8 @@ def _from_above(
 
     Gives a function that puts them at `places`, shape (2, K, J, 3), and returns what it moved.
     """
-    middle, apart = len(motions[0]) // 2, distinct_joints(motions[0].skeleton)
+    middle = len(motions[0]) // 2
+    distinct = distinct_joints(motions[0].skeleton)
     limbs = np.stack(bones(motions[0].skeleton)[:2])  # (2, B)
     threads = strokes(ax, color=QUIET, linewidth=0.7, zorder=1)
     drawn = []
@@ -147,19 +151,21 @@ def _from_above(
         drawn.append((tracks, body, mean))
     ax.plot([], [], "P", color=QUIET, markersize=9, label="mean")
     flat = everywhere[..., [0, 2]].reshape(-1, 2)
-    low, high = flat.min(0), flat.max(0)
-    (x, z), reach = (low + high) / 2, max(0.5, *(high - low) / 2 + 0.1)
+    low = flat.min(0)
+    high = flat.max(0)
+    x, z = (low + high) / 2
+    reach = max(0.5, *(high - low) / 2 + 0.1)
     ax.set(xlabel="x (m)", ylabel="z (m)", aspect="equal")
     ax.set(xlim=(x + reach, x - reach), ylim=(z - reach, z + reach))  # seen from above, x leads to the left
     ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.08), ncols=3, frameon=False)
 
     def put(places: Array) -> list[Artist]:
         ground = places[..., [0, 2]]
-        threads.set_segments([*ground[:, middle, apart].swapaxes(0, 1)])
-        for (tracks, body, mean), ways in zip(drawn, ground, strict=True):
-            tracks.set_segments(ways.swapaxes(0, 1))
-            body.set_segments(ways[middle][limbs].swapaxes(0, 1))
-            mean.set_data(ways[:, apart].mean((0, 1))[:, None])
+        threads.set_segments([*ground[:, middle, distinct].swapaxes(0, 1)])
+        for (tracks, body, mean), points in zip(drawn, ground, strict=True):
+            tracks.set_segments(points.swapaxes(0, 1))
+            body.set_segments(points[middle][limbs].swapaxes(0, 1))
+            mean.set_data(points[:, distinct].mean((0, 1))[:, None])
         return [threads, *(artist for artists in drawn for artist in artists)]
 
     return put

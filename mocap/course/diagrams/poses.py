@@ -18,7 +18,8 @@ from mocap.course.notebooks import shown_source
 from mocap.plotting import COLOURS, CURVES, MARK, QUIET, StickFigure, bones, ground_axes
 from mocap.plotting.stick_figures import to_picture
 
-ALONG, ACROSS = 0.8, 0.8  # the two parts of the vector that `half_turns` turns
+ALONG = 0.8  # the part along the axis of the vector that `half_turns` turns
+ACROSS = 0.8  # its part across the axis
 CORNER = np.array([-1.0, 0, -0.5])  # where `turns_in_order` draws the axes of the world
 NAMES = ("v", "q v", "q v q̄")
 
@@ -45,9 +46,10 @@ def half_turns(step: int = 2, angle: float = 60) -> Figure:
     figure, axes = plt.subplots(1, 2, figsize=(9, 3.9), layout="constrained")
     half = np.radians(angle) / 2
     across = ACROSS * np.exp(1j * half * np.arange(step + 1))
-    along = ALONG * np.exp(1j * (np.pi / 2 + half * np.array([0, 1, 0])))[: step + 1]
-    labels = ("x", "y"), ("w, the number in front", "z, along the axis")
-    for ax, points, part, (x, y) in zip(axes, (across, along), ("across", "along"), labels, strict=True):
+    turned = half * np.array([0, 1, 0])
+    along = ALONG * np.exp(1j * (np.pi / 2 + turned))[: step + 1]
+    labels = (("across", "x", "y"), ("along", "w, the number in front", "z, along the axis"))
+    for ax, points, (part, x, y) in zip(axes, (across, along), labels, strict=True):
         _draw_turning(ax, points)
         ax.set(title=f"the part {part} the axis", xlabel=x, ylabel=y)
     vector = np.array([0, across[0].real, 0, ALONG])
@@ -62,16 +64,19 @@ def half_turns(step: int = 2, angle: float = 60) -> Figure:
 def _draw_turning(ax: Axes, points: Array) -> None:
     """Draw a part of v, and where q and then q̄ bring it: the last one solid, those before it pale."""
     for number, point in enumerate(points):
-        same = [name for name, other in zip(NAMES, points, strict=False) if abs(other - point) < 1e-9]
+        at_point = [name for name, p in zip(NAMES, points, strict=False) if abs(p - point) < 1e-9]
         last = number == len(points) - 1
         colour = CURVES[0] if last else QUIET
         arrow(ax, 0j, point, colour, 1.4 + last, shrinkA=2)
-        say(ax, 1.2 * point, ", ".join(same), color=colour)
+        say(ax, 1.2 * point, ", ".join(at_point), color=colour)
     places = (0.7, 1.2, 0.5), (0.4, 0.6, 2.1)  # radius of the arc; of its number, and how many turns on
-    for before, after, (radius, out, turns) in zip(points, points[1:], places, strict=False):
-        start, turn = before / abs(before), np.angle(after / before)
-        trace(ax, radius * start * np.exp(1j * np.linspace(0, turn, 30)), color=MARK, linewidth=1.5)
-        say(ax, out * start * np.exp(1j * turns * turn), f"{np.degrees(turn):+.0f}°".replace("-", "−"))
+    for first, second, (radius, out, turns) in zip(points, points[1:], places, strict=False):
+        start = first / abs(first)
+        turn = np.angle(second / first)
+        arc = radius * start * np.exp(1j * np.linspace(0, turn, 30))
+        trace(ax, arc, color=MARK, linewidth=1.5)
+        degrees = f"{np.degrees(turn):+.0f}°".replace("-", "−")
+        say(ax, out * start * np.exp(1j * turns * turn), degrees)
     ax.axhline(0, color=QUIET, linewidth=0.6)
     ax.axvline(0, color=QUIET, linewidth=0.6)
     ax.set(xlim=(-1.4, 1.4), ylim=(-1.4, 1.4), aspect="equal", xticks=[-1, 0, 1], yticks=[-1, 0, 1])
@@ -142,10 +147,12 @@ def down_the_tree(motion: Motion, frame: int = 0) -> Callable[[int], list[Artist
 
     Notebook: 01-skeletons-and-clips
     """
-    names, parents = motion.skeleton.names, (0, *motion.skeleton.parents[1:])
+    names = motion.skeleton.names
+    parents = (0, *motion.skeleton.parents[1:])
     points = plain.joint_positions(motion[frame : frame + 1])[0][:, [2, 1]]  # z to the right, y upwards
     figure = Figure(figsize=(9.8, 4))
-    code, ax = figure.add_axes((0.01, 0, 0.79, 0.9)), figure.add_axes((0.84, 0.15, 0.15, 0.83))
+    code = figure.add_axes((0.01, 0, 0.79, 0.9))
+    ax = figure.add_axes((0.84, 0.15, 0.15, 0.83))
     program = re.sub(r"  #.*", "", shown_source("plain.joint_positions"))  # on a slide it would be too wide
     lines = program.replace(" + rotate", f"\n{' ' * 12}+ rotate").splitlines()
     marked = show_program(code, lines, 0)
@@ -156,7 +163,8 @@ def down_the_tree(motion: Motion, frame: int = 0) -> Callable[[int], list[Artist
     (dots,) = ax.plot([], [], "o", color=QUIET, markersize=4)
     (last,) = ax.plot([], [], "o", color=MARK, markersize=8)
     bone = arrow(ax, 0j, 0j, MARK)
-    low, high = points[:, 0].min() - 0.2, points[:, 0].max() + 0.2
+    low = points[:, 0].min() - 0.2
+    high = points[:, 0].max() + 0.2
     ax.set(
         aspect="equal", xlabel="z (m)", ylabel="y (m)", xlim=(low, high), ylim=(-0.05, 1.85), yticks=[0, 1]
     )
@@ -173,8 +181,8 @@ def down_the_tree(motion: Motion, frame: int = 0) -> Callable[[int], list[Artist
         last.set_data(points[[joint]].T)
         bone.xy, bone.xyann = points[joint], points[parent]
         bone.set_visible(bool(abs(points[joint] - points[parent]).max() > 1e-6))
-        told = f"its parent is {parent}, {names[parent]}" if joint else "it has no parent"
-        code.title.set(text=f"joint {joint}, {names[joint]}: {told}")
+        relation = f"its parent is {parent}, {names[parent]}" if joint else "it has no parent"
+        code.title.set(text=f"joint {joint}, {names[joint]}: {relation}")
         return [marked, limbs, dots, last, bone, code.title]
 
     return placed

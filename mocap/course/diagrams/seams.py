@@ -21,8 +21,14 @@ from mocap.plotting import COLOURS, CURVES, MARK, QUIET, SOURCES
 from mocap.plotting.stick_figures import to_picture
 
 AROUND = 4  # frames of each clip before the window and after it
-FIRST, SECOND, RESULT = 2.6, 1.3, 0.0  # the heights of the rows
+FIRST = 2.6  # height of the row of the first clip
+SECOND = 1.3  # height of the row of the second clip
+RESULT = 0.0  # height of the row of the result
 BOX = 0.86  # a frame's width and height
+WEIGHED = 2  # the step from which the weights are drawn
+MIXED = 3  # the step from which mixed frames are drawn
+WHOLE = 4  # the step that draws the whole result
+TURNED_KNEES = 3  # the step from which other positions of the knee are drawn
 
 
 def blended_seam(step: int = 4, window: int = 6) -> Figure:
@@ -46,30 +52,40 @@ def blended_seam(step: int = 4, window: int = 6) -> Figure:
     rows, weights = figure.subplots(2, 1, height_ratios=[3, 1.3], sharex=True)
     places = range(-AROUND, window + AROUND)
     alpha = np.concatenate([np.ones(AROUND), cubic_weights(window), np.zeros(AROUND)])
-    a, b = SOURCES[:2]
     for place, share in zip(places, alpha.tolist(), strict=True):
-        inside = 0 <= place < window
-        for letter, height, colour in (("i", FIRST, a), ("j", SECOND, b)):
-            _draw_frame(rows, place, height, {colour: 1.0}, letter)
-            if inside and step >= 3:
-                rows.plot([place] * 2, [height - 0.12, RESULT + BOX], color=QUIET, lw=0.6, zorder=0)
-        if step >= (3 if inside else 4):
-            name = "mix" if inside else "i" if place < 0 else "j"
-            _draw_frame(rows, place, RESULT, {a: share, b: 1 - share}, name)
-    for height in (FIRST, SECOND, RESULT)[: 3 if step >= 3 else 2]:
-        corner, high = (-0.55, height - 0.12), BOX + 0.24
-        rows.add_patch(Rectangle(corner, window + 0.1, high, fill=False, edgecolor=MARK, lw=2.5))
+        is_mixed = 0 <= place < window
+        _draw_sources(rows, place, has_threads=is_mixed and step >= MIXED)
+        if step >= (MIXED if is_mixed else WHOLE):
+            _draw_result(rows, place, share, is_mixed=is_mixed)
+    for height in (FIRST, SECOND, RESULT) if step >= MIXED else (FIRST, SECOND):
+        corner = (-0.55, height - 0.12)
+        rows.add_patch(Rectangle(corner, window + 0.1, BOX + 0.24, fill=False, edgecolor=MARK, lw=2.5))
     rows.set(xlim=(-AROUND - 0.7, window + AROUND - 0.3), ylim=(-0.4, FIRST + 1.4))
     names = ["clip A", "clip B,\naligned", "result"]
     rows.set_yticks(np.array([FIRST, SECOND, RESULT]) + BOX / 2, names)
     rows.tick_params(length=0, labelbottom=False)
     rows.spines[:].set_visible(False)
     weights.set(ylabel="α, share of A", xlabel="frame p of the window", ylim=(-0.1, 1.1))
-    if step >= 2:
+    if step >= WEIGHED:
         weights.plot(places, alpha, "o-", color=CURVES[0])
         for place, share in enumerate(alpha[AROUND:-AROUND]):
             weights.annotate(f"{share:.2f}", (place, share), (5, 3), textcoords="offset points")
     return figure
+
+
+def _draw_sources(ax: Axes, place: int, *, has_threads: bool) -> None:
+    """Draw a frame of both clips, with threads to the frame that is mixed of them."""
+    for letter, height, colour in (("i", FIRST, SOURCES[0]), ("j", SECOND, SOURCES[1])):
+        _draw_frame(ax, place, height, {colour: 1.0}, letter)
+        if has_threads:
+            ax.plot([place] * 2, [height - 0.12, RESULT + BOX], color=QUIET, lw=0.6, zorder=0)
+
+
+def _draw_result(ax: Axes, place: int, share: float, *, is_mixed: bool) -> None:
+    """Draw a frame of the result: one of the first clip, a mixed one, or one of the second clip."""
+    clip = "i" if place < 0 else "j"
+    shares = {SOURCES[0]: share, SOURCES[1]: 1 - share}
+    _draw_frame(ax, place, RESULT, shares, "mix" if is_mixed else clip)
 
 
 def _draw_frame(ax: Axes, place: int, height: float, shares: Mapping[str, float], name: str) -> None:
@@ -83,6 +99,7 @@ def _draw_frame(ax: Axes, place: int, height: float, shares: Mapping[str, float]
     ax.text(place, height + BOX / 2, name, ha="center", va="center")
 
 
+# reads: name: notebooks use `ways`
 def turning_paths(ways: Mapping[str, Array], share: float = 0.25) -> Figure:
     """Draw ways from one rotation to another: a bone's tip on a ball, and how far each way has turned.
 
@@ -106,15 +123,16 @@ def turning_paths(ways: Mapping[str, Array], share: float = 0.25) -> Figure:
     ball.set_box_aspect((1, 1, 1), zoom=1.3)
     ball.set_axis_off()
     u, v = np.mgrid[0 : 2 * np.pi : 25j, 0 : np.pi : 13j]
-    net = np.cos(u) * np.sin(v), np.sin(u) * np.sin(v), np.cos(v)
+    radius = np.sin(v)  # of the circle of latitude
+    net = np.cos(u) * radius, np.sin(u) * radius, np.cos(v)
     ball.plot_wireframe(*net, color="#DDDDDD", linewidth=0.5)
-    for (name, way), colour, width in zip(ways.items(), CURVES, (2, 6, 2, 2), strict=False):
-        now = round(share * (len(way) - 1))
-        look = {"color": colour, "zorder": 1 / width, "lw": width, "ms": 6 + width, "markevery": [now]}
-        tips = to_picture(rotations.rotate(way, [0.0, 0.0, 1.0]))
-        turned = np.degrees(rotations.angle_between(way[0], way))
+    for (name, path), colour, width in zip(ways.items(), CURVES, (2, 6, 2, 2), strict=False):
+        shown = round(share * (len(path) - 1))
+        look = {"color": colour, "zorder": 1 / width, "lw": width, "ms": 6 + width, "markevery": [shown]}
+        tips = to_picture(rotations.rotate(path, [0.0, 0.0, 1.0]))
+        turned = np.degrees(rotations.angle_between(path[0], path))
         ball.plot(*tips.T, "o-", **look)
-        graph.plot(np.linspace(0, 1, len(way)), turned, "o-", label=name, **look)  # type: ignore[arg-type]
+        graph.plot(np.linspace(0, 1, len(path)), turned, "o-", label=name, **look)  # type: ignore[arg-type]
     graph.set(xlabel="share of the way", ylabel="turned from the start (degrees)")
     graph.legend(frameon=False)
     return figure
@@ -137,23 +155,23 @@ def knee_triangle(step: int = 3, distance: float = 0.74) -> Figure:
 
     Notebook: 04b-feet
     """
-    thigh, shank = 0.45, 0.41
+    thigh = 0.45  # metres
+    shank = 0.41  # metres
     figure, ax = plt.subplots(figsize=(5.4, 4.4), layout="constrained")
     along = (thigh**2 + distance**2 - shank**2) / (2 * distance)  # from the hip to below the knee
-    hip, ankle, knee = 0j, -1j * distance, np.sqrt(thigh**2 - along**2) - 1j * along
-    for side in (0.4, -0.4, -1.0) if step >= 3 else ():
+    hip = 0j
+    ankle = -1j * distance
+    knee = np.sqrt(thigh**2 - along**2) - 1j * along
+    for side in (0.4, -0.4, -1.0) if step >= TURNED_KNEES else ():
         turned = np.array([hip, side * knee.real + 1j * knee.imag, ankle])
         trace(ax, turned, marker="o", ls=":", color=QUIET, lw=1.5)
     trace(ax, np.array([hip, knee, ankle]), marker="o", color=CURVES[0], lw=4, ms=9)
     trace(ax, np.array([hip, ankle]), color=CURVES[1], lw=2, ls="--")
-    for text, at in {
-        "hip": -0.09 + 0.03j,
-        "ankle": ankle - 0.13 - 0.05j,
-        "knee": knee + 0.03,
-        "thigh $u$": knee / 2 + 0.03 + 0.03j,
-        "shank $l$": (knee + ankle) / 2 + 0.03 - 0.03j,
-    }.items():
-        ax.text(at.real, at.imag, text)
+    positions = {"hip": -0.09 + 0.03j, "ankle": ankle - 0.13 - 0.05j, "knee": knee + 0.03}
+    positions["thigh $u$"] = knee / 2 + 0.03 + 0.03j
+    positions["shank $l$"] = (knee + ankle) / 2 + 0.03 - 0.03j
+    for text, position in positions.items():
+        ax.text(position.real, position.imag, text)
     ax.text(-0.02, -distance / 2, "distance $d$", rotation=90, ha="right", va="center", color=CURVES[1])
     if step >= 2:
         _draw_angles(ax, knee, ankle)
@@ -226,7 +244,8 @@ def _move_added(
     *terms: Array,
 ) -> list[Artist]:
     """Move the curves of `added_by_blend` to another blend, and return all that moved."""
-    start, window = blended.start, len(blended.weights)
+    start = blended.start
+    window = len(blended.weights)
     travelled = blended.first.root_positions[-1] - blended.first.root_positions[0]
     ahead = travelled / max(float(np.linalg.norm(travelled)), 1e-9)
     for line, motion in zip(speeds, (blended.first, blended.second, blended.result), strict=True):
@@ -234,7 +253,8 @@ def _move_added(
         line.set_data(np.arange(len(speed)) + 0.5 - start, speed)
     inside.set_width(window - 1)
     frames = np.arange(-1, window + 1)
-    jolts = np.pad(blended.jolts[3], 1)  # down to the ground at both ends
+    *_, added_jolts = blended.jolts
+    jolts = np.pad(added_jolts, 1)  # down to the ground at both ends
     added.set_xy(np.column_stack([np.pad(frames, 1, mode="edge"), jolts]))
     for line, term in zip(sizes, terms, strict=True):
         line.set_data(frames, blended.size(term)[start - 2 :][: window + 2])

@@ -15,6 +15,8 @@ from matplotlib.text import Text
 from mocap.course.diagrams.pens import arrow, disc, say, show_program
 from mocap.plotting import COLOURS, MARK, PATH, QUIET, SOURCES, node_link
 
+Leap = tuple[int, float, int, float]
+
 LENGTHS = (6.0, 5.0)  # seconds
 LEAPS = ((0, 3.6, 1, 1.4), (1, 3.2, 0, 1.8), (0, 4.8, 0, 1.0))
 """Transitions: which clip they leave, when, which clip they enter, when."""
@@ -27,6 +29,10 @@ STEPS = (
     "Pruned: the grey pieces lead to an end, or nothing leads to them.",
     "A walk: any sequence of edges in which each begins where the last one ends.",
 )
+MATCHED = 1  # the step that draws a match
+PRUNED = 4  # the step from which pieces are grey
+WALKED = 5  # the step that draws a walk
+SELF_BEND = 0.28  # of the arrow of a transition into its own clip
 MATCH = ((0, 3.6, 0.32), (1, 1.07, -1.42))  # its windows: clip, from, height of the word
 WALK = ((-0.18, 1.0, 3.6), (-1.18, 1.4, 3.2), (-0.32, 1.8, 4.8), (-0.46, 1.0, 3.6))  # height, from, to
 
@@ -52,25 +58,16 @@ def nodes_and_edges(step: int = 5) -> Figure:
     """
     figure, ax = plt.subplots(figsize=(7, 3), layout="constrained")
     leaps = LEAPS[: (0, 0, 1, 3, 3, 3)[step]]
-    for clip, length in enumerate(LENGTHS):
-        nodes = {leaves for source, leaves, _, _ in leaps if source == clip}
-        nodes |= {enters for _, _, target, enters in leaps if target == clip}
-        times = sorted({0.0, length} | nodes)
-        for start, end in pairwise(times):
-            colour = SOURCES[clip] if step < 4 or 0 < start < end < length else "#DDDDDD"
-            ax.plot([start, end], [-clip] * 2, color=colour, linewidth=9, solid_capstyle="butt", zorder=1)
-        for time in times:
-            edge = COLOURS["middle"] if step < 4 or time in nodes else QUIET
-            ax.plot(time, -clip, "o", color="white", markeredgecolor=edge, markersize=9, zorder=4)
-    for clip, at, below in MATCH if step == 1 else ():
-        ax.plot([at, at + 0.33], [-clip] * 2, color=MARK, linewidth=17, solid_capstyle="butt", zorder=2)
-        ax.text(at + 0.16, below, "window", ha="center", color=COLOURS["middle"])
-    for number, (lift, start, end) in enumerate(WALK if step == 5 else (), 1):
-        arrow(ax, start + 1j * lift, end + 1j * lift, PATH, 2.2, shrinkA=2, shrinkB=2)
-        say(ax, start - 0.12 + 1j * lift, str(number))
+    for clip in range(len(LENGTHS)):
+        _draw_clip(ax, clip, leaps, is_pruned=step >= PRUNED)
+    if step == MATCHED:
+        _draw_match(ax)
+    if step == WALKED:
+        _draw_walk(ax)
     for source, leaves, target, enters in leaps:
-        bend, colour = f"arc3,rad={0.28 * (source == target)}", PATH if step == 5 else MARK
-        look: dict[str, Any] = {"connectionstyle": bend, "shrinkA": 6, "shrinkB": 6}
+        bend = SELF_BEND if source == target else 0
+        look: dict[str, Any] = {"connectionstyle": f"arc3,rad={bend}", "shrinkA": 6, "shrinkB": 6}
+        colour = PATH if step == WALKED else MARK
         arrow(ax, leaves - 1j * source, enters - 1j * target, colour, **look).set_zorder(3)
     ax.set_title(STEPS[step], fontsize=10, loc="left")
     ax.set(xlabel="time in the clip (s)", xlim=(-0.2, 6.2), ylim=(-1.75, 0.95))
@@ -80,6 +77,35 @@ def nodes_and_edges(step: int = 5) -> Figure:
     return figure
 
 
+def _draw_clip(ax: Axes, clip: int, leaps: Sequence[Leap], *, is_pruned: bool) -> None:
+    """Draw a clip as a bar, cut by nodes; if it is pruned, its ends are grey."""
+    length = LENGTHS[clip]
+    nodes = {leaves for source, leaves, _, _ in leaps if source == clip}
+    nodes |= {enters for _, _, target, enters in leaps if target == clip}
+    times = sorted({0.0, length} | nodes)
+    for start, end in pairwise(times):
+        is_kept = not is_pruned or 0 < start < end < length
+        colour = SOURCES[clip] if is_kept else "#DDDDDD"
+        ax.plot([start, end], [-clip] * 2, color=colour, linewidth=9, solid_capstyle="butt", zorder=1)
+    for time in times:
+        edge = COLOURS["middle"] if not is_pruned or time in nodes else QUIET
+        ax.plot(time, -clip, "o", color="white", markeredgecolor=edge, markersize=9, zorder=4)
+
+
+def _draw_match(ax: Axes) -> None:
+    """Draw two windows in which both clips do nearly the same."""
+    for clip, start, height in MATCH:
+        ax.plot([start, start + 0.33], [-clip] * 2, color=MARK, linewidth=17, solid_capstyle="butt", zorder=2)
+        ax.text(start + 0.16, height, "window", ha="center", color=COLOURS["middle"])
+
+
+def _draw_walk(ax: Axes) -> None:
+    """Draw the edges of a walk as numbered arrows."""
+    for number, (height, start, end) in enumerate(WALK, 1):
+        arrow(ax, start + 1j * height, end + 1j * height, PATH, 2.2, shrinkA=2, shrinkB=2)
+        say(ax, start - 0.12 + 1j * height, str(number))
+
+
 Node = Hashable
 EIGHT_PLACES: dict[Node, tuple[float, float]] = {
     **{1: (0, 1), 2: (1, 2), 3: (1, 0), 4: (-0.2, -0.6)},
@@ -87,7 +113,8 @@ EIGHT_PLACES: dict[Node, tuple[float, float]] = {
 }
 """Where the nodes of `graphs.notes_example` stand in the pictures of the course."""
 
-ON_STACK, UNSEEN = "#F3E9B8", "#FFFFFF"
+ON_STACK = "#F3E9B8"  # the colour of nodes
+UNSEEN = "#FFFFFF"  # the colour of nodes
 BOX = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
 
 
@@ -142,8 +169,11 @@ def tarjan_states(successors: Mapping[Node, Sequence[Node]]) -> list[SearchState
 
     Notebook: 06-pruning
     """
-    number, low = dict[Node, int](), dict[Node, int]()
-    stack, components, states = list[Node](), list[set[Node]](), list[SearchState]()
+    number: dict[Node, int] = {}
+    low: dict[Node, int] = {}
+    stack: list[Node] = []
+    components: list[set[Node]] = []
+    states: list[SearchState] = []
 
     def note(line: int, message: str, node: Node) -> None:
         states.append(SearchState(line, message, node, dict(number), dict(low), [*stack], [*components]))
@@ -163,9 +193,9 @@ def tarjan_states(successors: Mapping[Node, Sequence[Node]]) -> list[SearchState
             else:
                 note(8, f"{child} has left the stack", node)
         if low[node] == number[node]:
-            at = stack.index(node)
-            components.append(set(stack[at:]))
-            del stack[at:]
+            first = stack.index(node)
+            components.append(set(stack[first:]))
+            del stack[first:]
             note(10, f"{node} is the first of its component", node)
 
     for node in successors:
@@ -174,6 +204,7 @@ def tarjan_states(successors: Mapping[Node, Sequence[Node]]) -> list[SearchState
     return states
 
 
+# reads: name: notebooks use `beside`
 def eight_node_graph(
     graph: nx.MultiDiGraph,
     *,
@@ -209,8 +240,8 @@ def eight_node_graph(
     for name, node in zip(ax.texts, graph, strict=True):
         name.set_color("white" if node in colour else "black")
     for node, words in (beside or {}).items():
-        at = complex(*EIGHT_PLACES[node]) + 0.2 - 0.36j
-        say(ax, at, str(words), ha="left", bbox=BOX)
+        position = complex(*EIGHT_PLACES[node]) + 0.2 - 0.36j
+        say(ax, position, str(words), ha="left", bbox=BOX)
     for drawn, edge in zip(arrows, graph.edges(), strict=True):
         if edge in thick:
             drawn.set(color=PATH, linewidth=3)
@@ -244,7 +275,9 @@ def tarjan_steps(graph: nx.MultiDiGraph) -> Callable[[int], list[Artist]]:
     figure, (left, right, code) = plt.subplots(1, 3, figsize=(11, 4.4), width_ratios=(9, 2, 12))
     figure.subplots_adjust(left=0.01, right=0.99, top=0.93, bottom=0.23, wspace=0.04)
     eight_node_graph(graph, beside=dict.fromkeys(graph, ""), ax=left)
-    discs, names, beside = left.collections[0], left.texts[: len(graph)], left.texts[len(graph) :]
+    discs = left.collections[0]
+    names = left.texts[: len(graph)]
+    numbers = left.texts[len(graph) :]
     boxes, words = _draw_stack(right, len(graph))
     mark = show_program(code, PROGRAM, 0)
     _explain(figure, len(states[-1].components))
@@ -255,27 +288,33 @@ def tarjan_steps(graph: nx.MultiDiGraph) -> Callable[[int], list[Artist]]:
         face = dict.fromkeys(graph, UNSEEN) | dict.fromkeys(state.stack, ON_STACK) | parts
         discs.set(facecolor=[face[node] for node in graph])
         discs.set(linewidth=[4 if node == state.node else 1 for node in graph])
-        for node, name, links in zip(graph, names, beside, strict=True):
+        for node, name, links in zip(graph, names, numbers, strict=True):
             name.set_color("white" if node in parts else "black")
             links.set_text(f"{state.number[node]} / {state.low[node]}" if node in state.number else "")
-        for at, (box, word) in enumerate(zip(boxes, words, strict=True)):
-            box.set_visible(at < len(state.stack))
-            word.set_text("".join(map(str, state.stack[at : at + 1])))
+        _fill_stack(boxes, words, state.stack)
         right.title.set_text("stack" if state.stack else "empty")
         left.title.set_text(f"step {states.index(state)}: {state.message}")
         mark.set_y(state.line - 0.5)
-        return [discs, *names, *beside, *boxes, *words, mark, right.title, left.title]
+        return [discs, *names, *numbers, *boxes, *words, mark, right.title, left.title]
 
     return draw
 
 
-def _draw_stack(ax: Axes, most: int) -> tuple[list[Rectangle], list[Text]]:
+def _fill_stack(boxes: Sequence[Rectangle], words: Sequence[Text], stack: Sequence[Node]) -> None:
+    """Show the nodes of the stack in its boxes."""
+    for place, (box, word) in enumerate(zip(boxes, words, strict=True)):
+        box.set_visible(place < len(stack))
+        word.set_text("".join(map(str, stack[place : place + 1])))
+
+
+def _draw_stack(ax: Axes, height: int) -> tuple[list[Rectangle], list[Text]]:
     """Draw the stack as boxes with words, the oldest node at the bottom."""
-    ax.set(xlim=(-0.3, 1.3), ylim=(-0.8, most), xticks=[], yticks=[])
+    ax.set(xlim=(-0.3, 1.3), ylim=(-0.8, height), xticks=[], yticks=[])
     ax.spines[["top", "left", "right"]].set_visible(False)
     ax.spines["bottom"].set_color(QUIET)
-    boxes = ax.barh(range(most), 1, height=0.9, color=ON_STACK, edgecolor="black", linewidth=0.8)
-    return [*boxes], [ax.text(0.5, at, "", ha="center", va="center") for at in range(most)]
+    boxes = ax.barh(range(height), 1, height=0.9, color=ON_STACK, edgecolor="black", linewidth=0.8)
+    words = [ax.text(0.5, place, "", ha="center", va="center") for place in range(height)]
+    return [*boxes], words
 
 
 def _explain(figure: Figure, parts: int) -> None:
@@ -285,5 +324,5 @@ def _explain(figure: Figure, parts: int) -> None:
     look: dict[str, Any] = {"markersize": 9, "markeredgecolor": "black"}
     keys = [disc(face, label=name, **look) for name, face in named.items()]
     keys.append(disc("white", label="the search stands here", markeredgewidth=3, **look))
-    told = "beside a node: number / low link"
-    figure.legend(handles=keys, title=told, frameon=False, loc="lower left", ncols=3, alignment="left")
+    title = "beside a node: number / low link"
+    figure.legend(handles=keys, title=title, frameon=False, loc="lower left", ncols=3, alignment="left")

@@ -37,10 +37,13 @@ def window_cloud(motion: Motion, *, step: int = 4) -> Figure:
 
     Notebook: 02-matching
     """
-    points, cloud = joint_positions(motion), point_cloud(motion)
-    flat, middle = cloud.reshape(-1, 3), len(motion) // 2
+    points = joint_positions(motion)
+    cloud = point_cloud(motion)
+    flat = cloud.reshape(-1, 3)
+    middle = len(motion) // 2
     figure = Figure(figsize=(5.2, 4.8))
-    low, high = points.min(axis=(0, 1))[[0, 2]], points.max(axis=(0, 1))[[0, 2]]
+    low = points.min(axis=(0, 1))[[0, 2]]
+    high = points.max(axis=(0, 1))[[0, 2]]
     reach = max(1.2, *(high - low)) / 2 + 0.2
     ax = ground_axes((low + high) / 2, reach, ax=figure.add_axes((0, 0, 1, 0.92), projection="3d"))
     ax.view_init(elev=12, azim=float(np.degrees(heading(motion.rotations[middle, 0]))) - 65)  # from the right
@@ -57,6 +60,7 @@ def window_cloud(motion: Motion, *, step: int = 4) -> Figure:
     return figure
 
 
+ADDED = 4  # which of the sources' colours the numbers have that are added up
 CIRCLE_STEPS = ("each from its own middle", "where a turn can move each point", "what no turn can remove")
 
 
@@ -80,7 +84,9 @@ def radius_gaps(first: Motion, second: Motion, joints: Sequence[str], *, step: i
     Notebook: 02c-most-pairs
     """
     figure = Figure(figsize=(5.6, 5.6), layout="constrained")
-    ax, last, places = figure.add_subplot(), step == len(CIRCLE_STEPS), []
+    ax = figure.add_subplot()
+    shows_gaps = step == len(CIRCLE_STEPS)
+    places = []
     for motion, colour in zip((first, second), SOURCES, strict=False):
         middle = point_cloud(motion).mean((0, 1))  # of all points of the window
         frame = joint_positions(motion)[len(motion) // 2]
@@ -91,12 +97,12 @@ def radius_gaps(first: Motion, second: Motion, joints: Sequence[str], *, step: i
     radii = np.linalg.norm(places, axis=-1).T  # (P, 2)
     for name, point, ends in zip(joints, places[0], np.sort(radii, axis=1), strict=True):
         ax.annotate(name, point, (4, 4), textcoords="offset points")
-        if last:
+        if shows_gaps:
             ray = point / max(np.linalg.norm(point), 1e-9)
             ax.plot(*np.outer(ray, ends), color=COLOURS["middle"], linewidth=4)
     gaps = 100 * np.abs(np.diff(radii, axis=1)[:, 0])
-    told = ", ".join(f"{name} {gap:.0f} cm" for name, gap in zip(joints, gaps, strict=True))
-    ax.set_title(CIRCLE_STEPS[step - 1] + f":\n{told}" * last)
+    listed = ", ".join(f"{name} {gap:.0f} cm" for name, gap in zip(joints, gaps, strict=True))
+    ax.set_title(f"{CIRCLE_STEPS[step - 1]}:\n{listed}" if shows_gaps else CIRCLE_STEPS[step - 1])
     ax.plot(0, 0, "+", color=QUIET)
     limit = 1.15 * radii.max() + 0.01
     ax.set(aspect="equal", xlabel="z (m)", ylabel="x (m)", xlim=(-limit, limit), ylim=(-limit, limit))
@@ -126,7 +132,8 @@ def diagonal_sums(products: ArrayLike, window: int, *, step: int) -> Figure:
     rows, columns = (count - window + 1 for count in numbers.shape)
     if min(rows, columns) < 1 or window < 1:
         raise MocapError(f"Windows of {window} frames do not fit into an array of shape {numbers.shape}.")
-    sums = np.sum([numbers[f : f + rows, f : f + columns] for f in range(step)], axis=0)
+    copies = [numbers[f : f + rows, f : f + columns] for f in range(step)]
+    sums = np.sum(copies, axis=0)
     figure = Figure(figsize=(8.4, 4.2), layout="constrained")
     frames, windows = figure.subplots(1, 2, width_ratios=(numbers.shape[1], columns))
     _table(frames, numbers, step, (rows, columns))
@@ -140,7 +147,7 @@ def diagonal_sums(products: ArrayLike, window: int, *, step: int) -> Figure:
 def _table(ax: Axes, numbers: Array, step: int, part: tuple[int, int]) -> None:
     """Write numbers into cells, the first of the diagonal coloured; frame a part from the last of these."""
     for (row, column), number in np.ndenumerate(numbers):
-        ground = SOURCES[4] if row == column < step else "#FFFFFF"
+        ground = SOURCES[ADDED] if row == column < step else "#FFFFFF"
         ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=ground, edgecolor=FLOOR))
         ax.text(column, row, f"{number:g}", ha="center", va="center")
     look: dict[str, Any] = {"fill": False, "edgecolor": SOURCES[0], "linewidth": 2.5, "zorder": 3}
@@ -178,12 +185,12 @@ def storyboard(
     """
     count = 3 if "weights" in show else 2
     figure = Figure(figsize=(4.6 * count, 3.3), layout="constrained")
-    where, windows, *last = figure.subplots(1, count)
-    draw_where(where)
-    where.set_title("1  which two windows", loc="left", fontsize=11)
+    overview, windows, *last = figure.subplots(1, count)
+    draw_where(overview)
+    overview.set_title("1  which two windows", loc="left", fontsize=11)
     draw_matched(windows, *pair)
-    apart = f"2  aligned, RMS distance {100 * rms_distance(*pair):.1f} cm"
-    windows.set_title(apart, loc="left", fontsize=11)
+    distance = f"2  aligned, RMS distance {100 * rms_distance(*pair):.1f} cm"
+    windows.set_title(distance, loc="left", fontsize=11)
     for ax in last:
         _draw_seam(ax, pair[0], *seam)
         ax.set_title("3  the seam; its window is shaded", loc="left", fontsize=11)
@@ -192,7 +199,8 @@ def storyboard(
 
 def draw_matched(ax: Axes, *pair: Motion) -> None:
     """Draw the first, middle and last frames of two windows from the side, with threads between them."""
-    last, joints = len(pair[0]) - 1, distinct_joints(pair[0].skeleton)
+    last = len(pair[0]) - 1
+    joints = distinct_joints(pair[0].skeleton)
     points = [joint_positions(_facing(pair[0]).apply_motion(motion))[..., [2, 1]] for motion in pair]
     for place, (frame, words) in enumerate([(0, "first frame"), (last // 2, "middle"), (last, "last frame")]):
         poses = [cloud[frame] + [1.1 * place - points[0][frame, 0, 0], 0.0] for cloud in points]

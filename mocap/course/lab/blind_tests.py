@@ -41,6 +41,7 @@ ALT = (
 )
 
 
+# reads: name: notebooks use `found`
 def blind_test(
     clips: Sequence[Motion], found: Transitions, window: int = 10, below: float = 0.04, seed: int = 0
 ) -> BlindTest:
@@ -106,8 +107,8 @@ class BlindTest(Embedded):
         seam, control, on_left, *_ = self.pairs[0]
         films = [seam, control] if on_left else [control, seam]
         rows = [Image.open(io.BytesIO(small_png(film_strip([film])))) for film in films]
-        both = Image.fromarray(np.concatenate([np.asarray(row.convert("RGB")) for row in rows]))
-        return few_colours(both, min(float(row.info["letters"]) for row in rows))
+        joined = Image.fromarray(np.concatenate([np.asarray(row.convert("RGB")) for row in rows]))
+        return few_colours(joined, min(float(row.info["letters"]) for row in rows))
 
     @cached_property
     def scene(self) -> dict[str, Any]:
@@ -115,37 +116,38 @@ class BlindTest(Embedded):
 
         They are packed as characters of the player, but in steps of two millimetres. All have one body.
         """
-        films, data = list[dict[str, Any]](), b""
+        films: list[dict[str, Any]] = []
+        data = b""
         for film in (film for pair in self.pairs for film in (pair.seam, pair.control)):
             body, block = packed_character(film, COLOURS["middle"], STEP)
             low = np.round(body.pop("low"), 4).tolist()
             films.append({"frames": body.pop("frames"), "offset": len(data), "low": low})
             data += block
-        return {
-            **{"about": repr(self), "body": body | {"name": ""}, "films": films},
-            "data": zlib.compress(data, 9),
-            "plan": {"below_cm": round(100 * self.below, 3), "window": self.window, "seed": self.seed},
-            "onLeft": [pair.on_left for pair in self.pairs],
-            "sides": [COLOURS[side] for side in SIDES],
-            "sentences": [sentence(right, len(self.pairs)) for right in range(len(self.pairs) + 1)],
-        }
+        count = len(self.pairs)
+        scene: dict[str, Any] = {"about": repr(self), "body": body | {"name": ""}, "films": films}
+        scene["data"] = zlib.compress(data, 9)
+        scene["plan"] = {"below_cm": round(100 * self.below, 3), "window": self.window, "seed": self.seed}
+        scene["onLeft"] = [pair.on_left for pair in self.pairs]
+        scene["sides"] = [COLOURS[side] for side in SIDES]
+        scene["sentences"] = [sentence(right, count) for right in range(count + 1)]
+        return scene
 
 
 class Pair(NamedTuple):
     """Two films, the one with the seam and its control, and whether the seam is in the left one.
 
-    `other` is the clip of the two that the control does not show: a film without a seam in the seam's place.
+    `unshown` is the clip of the two that the control does not show: a film without a seam in its place.
     """
 
     seam: Motion
     control: Motion
     on_left: bool
     match: Transition
-    other: Motion
+    unshown: Motion
 
 
 def choose(
-    clips: Sequence[Motion], found: Transitions, below: float, seed: int, count: int = 20
+    clips: Sequence[Motion], matches: Transitions, below: float, seed: int, count: int = 20
 ) -> Transitions:
     """Choose matches near a threshold at random, with enough of both clips around them.
 
@@ -155,13 +157,16 @@ def choose(
     """
     if len({clip.fps for clip in clips}) != 1:
         raise MocapError("A blind test needs clips of one rate; resample them.")
-    lengths, fps = np.array([len(clip) for clip in clips]), clips[0].fps
-    after = lengths[found.source] - found.leave, lengths[found.target] - found.enter
-    around = np.minimum.reduce([found.leave, found.enter, *after])  # frames of clip beside a match
-    later = abs(found.leave - found.enter) > fps  # and no mere moment on
-    elsewhere = (found.source != found.target) | later
-    near = (found.cost <= below) & (found.cost > NEAR * below)
-    usable: Transitions = found[near & elsewhere & (around >= round((SECONDS / 2 + AROUND + MATCHED) * fps))]
+    fps = clips[0].fps
+    lengths = np.array([len(clip) for clip in clips])
+    rest_of_source = lengths[matches.source] - matches.leave  # frames
+    rest_of_target = lengths[matches.target] - matches.enter  # frames
+    beside_match = np.minimum.reduce([matches.leave, matches.enter, rest_of_source, rest_of_target])
+    is_inside = beside_match >= round((SECONDS / 2 + AROUND + MATCHED) * fps)
+    is_later = abs(matches.leave - matches.enter) > fps  # and no mere moment on
+    is_elsewhere = (matches.source != matches.target) | is_later
+    is_near = (matches.cost <= below) & (matches.cost > NEAR * below)
+    usable: Transitions = matches[is_near & is_elsewhere & is_inside]
     if len(usable) < count:
         costs = f"{100 * NEAR * below:.1f} to {100 * below:.1f} cm"
         needed = f"{count} matches of {costs}, with {SECONDS / 2 + AROUND:.1f} s of both clips around"
@@ -185,22 +190,26 @@ def make_pairs(clips: Sequence[Motion], matches: Transitions, window: int, seed:
     MocapError : for a window that does not fit into a film.
     """
     fps = clips[0].fps
-    most = int((SECONDS - 2 * AROUND) * fps)
-    if not 1 <= window <= most:
-        raise MocapError(f"A window has 1 to {most} frames here, got {window}.")
+    longest = int((SECONDS - 2 * AROUND) * fps)
+    if not 1 <= window <= longest:
+        raise MocapError(f"A window has 1 to {longest} frames here, got {window}.")
     rng = np.random.default_rng([seed, 1])
     pairs = []
     for match in matches:
         seam_at = round((SECONDS / 2 + rng.uniform(-AROUND, AROUND)) * fps)
-        first, second = (  # films in which the middle of the matched window is at the seam
-            clips[clip][(begin := at + round(MATCHED * fps / 2) - seam_at) : begin + round(SECONDS * fps)]
-            for clip, at in ((match.source, match.leave), (match.target, match.enter))
-        )
+        first = _film(clips[match.source], match.leave, seam_at)
+        second = _film(clips[match.target], match.enter, seam_at)
         start = seam_at - window // 2
         second = align_window(first, start, second, start, window)
         joined = join(first, start, second, start, window)
-        control, other = (first, second) if rng.random() < 0.5 else (second, first)
+        control, unshown = (first, second) if rng.random() < 0.5 else (second, first)
         ahead = align_frames(first[seam_at:], place(first[seam_at:], 0.0, (0.0, 0.0)))
         films = ahead.apply_motion(joined), ahead.apply_motion(control)
-        pairs.append(Pair(*films, bool(rng.random() < 0.5), match, ahead.apply_motion(other)))
+        pairs.append(Pair(*films, bool(rng.random() < 0.5), match, ahead.apply_motion(unshown)))
     return pairs
+
+
+def _film(clip: Motion, window_start: int, seam_at: int) -> Motion:
+    """Cut a film in which the middle of the matched window is at the seam."""
+    begin = window_start + round(MATCHED * clip.fps / 2) - seam_at
+    return clip[begin : begin + round(SECONDS * clip.fps)]

@@ -28,7 +28,8 @@ from mocap.synthesis.walk_to_motion import seams
 
 SECONDS = 0.7  # of clip that are shown before and after a window
 CELLS = 20  # of a distance grid on each side of a transition, which a page measures itself
-EACH, MOST = 4, 100  # transitions of a graph that can be pointed at: the cheapest from each clip to each clip
+EACH = 4  # transitions of a graph that can be pointed at: the cheapest from each clip to each clip
+MOST = 100  # transitions of a graph that can be pointed at
 MINIMA = 40  # of a grid that are marked: the lowest
 LONGEST = 6_000  # frames that a page holds; with more it would be slow to open
 
@@ -36,7 +37,7 @@ LONGEST = 6_000  # frames that a page holds; with more it would be slow to open
 class Pick(NamedTuple):
     """Two windows: from frame `i` of clip `first`, and from frame `j` of clip `second`.
 
-    before, after : frames of clip to show around the window.
+    margin_before, margin_after : frames of clip to show around the window.
     number : which transition of a graph; -1 for a cell of a grid.
     seam, frame : which seam of a walk, and the walk's frame at which its window starts; -1 without a walk.
     """
@@ -45,8 +46,8 @@ class Pick(NamedTuple):
     i: int
     second: int
     j: int
-    before: int
-    after: int
+    margin_before: int
+    margin_after: int
     number: int = -1
     seam: int = -1
     frame: int = -1
@@ -69,9 +70,11 @@ class Choices(NamedTuple):
     @property
     def windows(self) -> tuple[Motion, Motion]:
         """The two windows that are looked at, where they are in their clips."""
-        pick, window = self.pick, self.window
-        first, second = self.clips[pick.first], self.clips[pick.second]
-        return first[pick.i : pick.i + window], second[pick.j : pick.j + window]
+        pick = self.pick
+        first = self.clips[pick.first]
+        second = self.clips[pick.second]
+        first_window = first[pick.i : pick.i + self.window]
+        return first_window, second[pick.j : pick.j + self.window]
 
     @property
     def fit(self) -> PlanarTransform:
@@ -87,14 +90,18 @@ class Choices(NamedTuple):
     @property
     def seam(self) -> tuple[Motion, int]:
         """Their blend by the paper's weights, with clip around it, and where in it the window begins."""
-        (first, i, second, j, before, after, *_), window = self.pick, self.window
-        joined, begin = join(self.clips[first], i, self.clips[second], j, window), min(before, i)
-        return joined[i - begin : i + window + after], begin
+        pick = self.pick
+        first = self.clips[pick.first]
+        second = self.clips[pick.second]
+        joined = join(first, pick.i, second, pick.j, self.window)
+        begin = min(pick.margin_before, pick.i)
+        return joined[pick.i - begin : pick.i + self.window + pick.margin_after], begin
 
     def needed(self, clip: int) -> Mask:
         """Mark the frames of a clip that a page may show: of a graph, those near its transitions."""
-        frames, fps = np.full(len(self.clips[clip]), self.grid is not None), self.clips[clip].fps
-        margin = CELLS * max(1, round(fps / 30)) + around(fps)
+        frames = np.full(len(self.clips[clip]), self.grid is not None)
+        fps = self.clips[clip].fps
+        margin = CELLS * max(1, round(fps / 30)) + margin_frames(fps)
         for pick in self.transitions:
             for number, start in ((pick.first, pick.i), (pick.second, pick.j)):
                 if number == clip:
@@ -102,17 +109,18 @@ class Choices(NamedTuple):
         return frames
 
 
-def around(fps: float) -> int:
+def margin_frames(fps: float) -> int:
     """Count the frames to show before and after a window.
 
     Examples
     --------
-    >>> around(30.0)
+    >>> margin_frames(30.0)
     21
     """
     return round(SECONDS * fps)
 
 
+# reads: name: `inspector` and its notebooks use `at`
 def of_clips(clips: Sequence[Motion], window: int, at: Any) -> Choices:  # noqa: ANN401 (a reader's value)
     """Choose two windows of two clips, by default those of the lowest local minimum.
 
@@ -151,7 +159,8 @@ def of_clips(clips: Sequence[Motion], window: int, at: Any) -> Choices:  # noqa:
     rows, columns = grid.shape
     if not (0 <= i < rows and 0 <= j < columns):
         raise MocapError(f"Windows start at frames 0 to {rows - 1} and 0 to {columns - 1}, not {i} and {j}.")
-    frames, by = around(first.fps), whose(*names) if sums.yours or inner.yours else ""
+    frames = margin_frames(first.fps)
+    by = whose(*names) if sums.yours or inner.yours else ""
     return Choices((first, second), window, Pick(0, i, 1, j, frames, frames), grid, minima, by=by)
 
 
@@ -181,17 +190,16 @@ def of_graph(graph: MotionGraph) -> Choices:
         raise MocapError("This graph has no transitions to inspect.")
     pairs = np.array([(start[0], end[0]) for start, end, _ in edges])
     costs = np.array([graph.graph.edges[edge]["cost"] for edge in edges])
-    few = [edges[number] for number in islice(cheapest(pairs, costs, EACH), MOST)]
-    return _offered(graph, few, few[0])
+    offered = [edges[number] for number in islice(cheapest(pairs, costs, EACH), MOST)]
+    return _offered(graph, offered, offered[0])
 
 
 def _offered(graph: MotionGraph, shown: Sequence[Edge], chosen: Edge) -> Choices:
     """Offer these transitions of a graph; one enters its clip at the frame after its window."""
-    frames = around(graph.fps)
-    picks = tuple(
-        Pick(source, leave, target, enter - graph.window, frames, frames, number)
-        for number, ((source, leave), (target, enter), _) in enumerate(shown)
-    )
+    frames = margin_frames(graph.fps)
+    picks: tuple[Pick, ...] = ()
+    for number, ((source, leave), (target, enter), _) in enumerate(shown):
+        picks += (Pick(source, leave, target, enter - graph.window, frames, frames, number),)
     costs = tuple(float(graph.graph.edges[edge]["cost"]) for edge in shown)
     pick = picks[shown.index(chosen)]
     choices = Choices(graph.clips, graph.window, pick, graph=graph, transitions=picks, costs=costs)
@@ -213,19 +221,21 @@ def of_walk(graph: MotionGraph, walk: Sequence[Edge]) -> Choices:
     >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
     >>> graph = graphs.from_transitions([clip], [back], window=10)
     >>> of_walk(graph, [((0, 20), (0, 60), 0), ((0, 60), (0, 20), 0)]).pick
-    Pick(first=0, i=60, second=0, j=10, before=21, after=0, number=0, seam=0, frame=40)
+    Pick(first=0, i=60, second=0, j=10, margin_before=21, margin_after=0, number=0, seam=0, frame=40)
     """
-    found = seams(graph, walk)
-    if not found:
+    seams_of_walk = seams(graph, walk)
+    if not seams_of_walk:
         raise MocapError("This walk takes no transition, so it has no seam to inspect.")
-    taken = [edge for edge in walk if graph.graph.edges[edge]["kind"] == "transition"]
-    edges, at = list(dict.fromkeys(taken)), int(np.argmax([seam.cost for seam in found]))
-    whole, most = _offered(graph, edges, taken[at]), around(graph.fps)
-    starts = [seam.frame for seam in found]
+    transitions = [edge for edge in walk if graph.graph.edges[edge]["kind"] == "transition"]
+    edges = list(dict.fromkeys(transitions))
+    costliest = int(np.argmax([seam.cost for seam in seams_of_walk]))
+    whole = _offered(graph, edges, transitions[costliest])
+    starts = [seam.frame for seam in seams_of_walk]
     bounds = [-graph.window, *starts, int(edge_table(graph, walk).frames.sum())]
-    gaps = [min(most, int(gap)) for gap in np.diff(bounds) - graph.window]  # of clip around the seams
+    longest = margin_frames(graph.fps)
+    gaps = [min(longest, int(gap)) for gap in np.diff(bounds) - graph.window]  # of clip around the seams
     picks = []
-    for n, (edge, start) in enumerate(zip(taken, starts, strict=True)):
-        own = whole.transitions[edges.index(edge)]
-        picks.append(own._replace(seam=n, frame=start, before=gaps[n], after=gaps[n + 1]))
-    return whole._replace(pick=picks[at], seams=tuple(picks))
+    for n, (edge, start) in enumerate(zip(transitions, starts, strict=True)):
+        pick = whole.transitions[edges.index(edge)]
+        picks.append(pick._replace(seam=n, frame=start, margin_before=gaps[n], margin_after=gaps[n + 1]))
+    return whole._replace(pick=picks[costliest], seams=tuple(picks))

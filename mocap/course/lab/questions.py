@@ -35,10 +35,10 @@ def read_questions(notebook: str) -> dict[str, dict[str, Any]]:
     ------
     MocapError : where there are none.
     """
-    found = sorted(TEXTS.glob(f"{notebook}-*.toml")) if notebook.isalnum() else []
-    if not found:
+    files = sorted(TEXTS.glob(f"{notebook}-*.toml")) if notebook.isalnum() else []
+    if not files:
         raise MocapError(f"There are no questions for a notebook {shortened(repr(notebook), 30)}.")
-    return {"quiz": {}, "bet": {}} | tomllib.loads(found[0].read_text("utf-8"))
+    return {"quiz": {}, "bet": {}} | tomllib.loads(files[0].read_text("utf-8"))
 
 
 def question(kind: str, key: str) -> dict[str, Any]:
@@ -49,10 +49,10 @@ def question(kind: str, key: str) -> dict[str, Any]:
     MocapError : for an unknown key.
     """
     notebook, _, name = key.partition("-")
-    found = read_questions(notebook)[kind]
-    if name not in found:
+    questions = read_questions(notebook)[kind]
+    if name not in questions:
         raise MocapError(f"No {kind} {shortened(repr(name), 40)} for notebook {notebook}.")
-    return dict(found[name])
+    return dict(questions[name])
 
 
 def computed(expression: str, names: Names) -> float:
@@ -86,18 +86,19 @@ def filled(value: Any, names: Names) -> Any:  # noqa: ANN401 (a text, or what ho
     'It is 2.8 cm off, below 3.'
     """
     if isinstance(value, str):
-        return PLACE.sub(lambda found: format(computed(found[1], names), found[2] or "g"), value)
+        return PLACE.sub(lambda match: format(computed(match[1], names), match[2] or "g"), value)
     if isinstance(value, dict):
         return {filled(key, names): filled(part, names) for key, part in value.items()}
     return [filled(part, names) for part in value] if isinstance(value, list) else value
 
 
-def require(asked: Mapping[str, Any], names: Names) -> None:
+def require(question_texts: Mapping[str, Any], names: Names) -> None:
     """Raise a MocapError if what an answer rests on is no longer true.
 
     Examples
     --------
     >>> require({"holds": "more > 2 * fewer"}, {"more": 9, "fewer": 4})
     """
-    if not computed(expression := asked.get("holds", "True"), names):
+    expression = question_texts.get("holds", "True")
+    if not computed(expression, names):
         raise MocapError(f"the answer is no longer right: {shortened(repr(expression), 100)} is false.")

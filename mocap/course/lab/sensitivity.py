@@ -58,7 +58,8 @@ def d_prime(right: int, of: int) -> DPrime:
     if not (0 <= right <= of and of > 0):
         raise MocapError(f"No d′ for {right} right answers of {of}.")
     limits = stats.binomtest(right, of).proportion_ci()
-    return DPrime(*(float(np.sqrt(2) * stats.norm.ppf(p)) for p in ((right + 0.5) / (of + 1), *limits)))
+    estimate = (right + 0.5) / (of + 1)
+    return DPrime(*(float(np.sqrt(2) * stats.norm.ppf(p)) for p in (estimate, *limits)))
 
 
 def mean_d_prime(values: Sequence[float]) -> DPrime:
@@ -77,9 +78,9 @@ def mean_d_prime(values: Sequence[float]) -> DPrime:
     >>> [round(number, 2) for number in mean_d_prime([0.5, 1.0, 1.5])]
     [1.0, -0.24, 2.24]
     """
-    mean, error = float(np.mean(values)), float(stats.sem(values))
-    wide = error * float(stats.t.ppf(0.975, len(values) - 1))
-    return DPrime(mean, mean - wide, mean + wide)
+    mean = float(np.mean(values))
+    half_width = float(stats.sem(values)) * float(stats.t.ppf(0.975, len(values) - 1))
+    return DPrime(mean, mean - half_width, mean + half_width)
 
 
 def sentence(right: int, of: int) -> str:
@@ -93,10 +94,10 @@ def sentence(right: int, of: int) -> str:
     'You chose right in 20 of 20 pairs: d′ = 2.8, with 95 % confidence 1.4 or more. You see these seams.'
     """
     value, low, high = d_prime(right, of)
-    shown, least, most = (f"{number:.1f}".replace("-", "−") for number in (value, low, high))
-    limits = f"from {least} to {most}"
+    shown, lower, upper = (f"{number:.1f}".replace("-", "−") for number in (value, low, high))
+    limits = f"from {lower} to {upper}"
     if right in (0, of):
-        limits = f"{least} or more" if right else f"{most} or less"
+        limits = f"{lower} or more" if right else f"{upper} or less"
     verdict = "You see these seams." if low > 0 else "That can be guessing, whose d′ is 0."
     if high < 0:
         verdict = "You see these seams, but you chose the films without one."
@@ -147,19 +148,25 @@ def read_answers(files: str | Path | Iterable[str | Path]) -> list[Answer]:
         if head != COLUMNS:
             raise FormatError(path, 1, ",".join(COLUMNS), repr(",".join(head)))
         for number, row in enumerate(rows, 2):
-            try:
-                who, below, window, seed, pair, right, _, _ = row
-                chose = {"0": False, "1": True}[right]
-                answer = Answer(who, float(below), int(window), int(seed), int(pair), chose)
-            except (ValueError, KeyError) as error:
-                expected = "an answer in 8 columns, right 0 or 1"
-                raise FormatError(path, number, expected, repr(",".join(row))) from error
+            answer = _answer_of(row, path, number)
             if answers.setdefault(answer[:-1], answer) != answer:
                 twice = f"'{answer.observer}' answered pair {answer.pair} twice, differently"
                 raise MocapError(f"{path}: {twice}.")
     return list(answers.values())
 
 
+def _answer_of(row: Sequence[str], path: str | Path, number: int) -> Answer:
+    """Read an answer from a line of a file."""
+    try:
+        observer, below, window, seed, pair, right, _, _ = row
+        is_right = {"0": False, "1": True}[right]
+        return Answer(observer, float(below), int(window), int(seed), int(pair), is_right)
+    except (ValueError, KeyError) as error:
+        expected = "an answer in 8 columns, right 0 or 1"
+        raise FormatError(path, number, expected, repr(",".join(row))) from error
+
+
+# reads: name: notebooks and files of classes use `over`
 def class_curve(answers: Sequence[Answer], over: Literal["below_cm", "window"]) -> dict[float, DPrime]:
     """Join the answers of a class to one curve of d′.
 
@@ -190,15 +197,16 @@ def class_curve(answers: Sequence[Answer], over: Literal["below_cm", "window"]) 
     """
     if over not in ("below_cm", "window"):
         raise MocapError(f"A curve of a class runs over 'below_cm' or 'window', got {over!r:.40}.")
-    other = "window" if over == "below_cm" else "below_cm"
-    held = sorted({getattr(answer, other) for answer in answers})
-    if len(held) != 1:
-        raise MocapError(f"The answers must have one '{other}', got {held[:9]}: keep those of one.")
+    constant = "window" if over == "below_cm" else "below_cm"
+    values = sorted({getattr(answer, constant) for answer in answers})
+    if len(values) != 1:
+        raise MocapError(f"The answers must have one '{constant}', got {values[:9]}: keep those of one.")
     people: dict[float, dict[str, list[bool]]] = defaultdict(lambda: defaultdict(list))
     for answer in answers:
         people[float(getattr(answer, over))][answer.observer].append(answer.right)
     curve = dict[float, DPrime]()
-    for setting, by in sorted(people.items()):
-        each = [d_prime(sum(right), len(right)) for right in by.values()]
-        curve[setting] = each[0] if len(each) == 1 else mean_d_prime([one.value for one in each])
+    for setting, answers_of in sorted(people.items()):
+        estimates = [d_prime(sum(right), len(right)) for right in answers_of.values()]
+        is_single = len(estimates) == 1
+        curve[setting] = estimates[0] if is_single else mean_d_prime([d.value for d in estimates])
     return curve

@@ -16,13 +16,23 @@ from typing import Any
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Mask
+from mocap._shared.arrays import Array, Indices, Mask
 from mocap.body import rotations
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.course.diagrams.windows import storyboard
-from mocap.course.lab.choices import CELLS, EACH, MOST, Choices, around, of_clips, of_graph, of_walk
+from mocap.course.lab.choices import (
+    CELLS,
+    EACH,
+    MOST,
+    Choices,
+    Pick,
+    margin_frames,
+    of_clips,
+    of_graph,
+    of_walk,
+)
 from mocap.errors import MocapError
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.matching.point_clouds import distinct_joints, rms_distance
@@ -39,12 +49,12 @@ NOWHERE = np.empty((0, 2))
 STEP = 5e-6  # what a unit of a number means: a clip at 120 Hz needs it so fine, or its jolts would tremble
 KEY = "Solid lines: the first clip. Dashed: the second. Blue is left, orange-red is right."
 WIDEST = 600  # rows and columns of a grid's picture; of more, blocks of cells become one
-LOOK = {
-    **{"sides": [COLOURS[side] for side in ("middle", "left", "right")], "curves": list(CURVES)},
-    **{"sources": list(SOURCES), "seam": MARK, "path": PATH, "asked": ASKED, "quiet": QUIET},
-}
+LOOK: dict[str, Any] = {"sides": [COLOURS[side] for side in ("middle", "left", "right")]}
+LOOK |= {"curves": list(CURVES), "sources": list(SOURCES)}
+LOOK |= {"seam": MARK, "path": PATH, "asked": ASKED, "quiet": QUIET}
 
 
+# reads: name: notebooks use `at`
 def inspector(
     *what: Motion | MotionGraph | Followed,
     at: tuple[int, int] | None = None,
@@ -86,14 +96,14 @@ def inspector(
     tabs = tuple(show) if isinstance(show, Sequence) else ()
     if not tabs or tabs != TABS[: len(tabs)]:
         raise MocapError(f"An inspector shows {', '.join(TABS)}, or the first of these, not {show!r:.80}.")
-    found = what[0] if len(what) == 1 else None
-    if isinstance(found, Followed | MotionGraph) and (at or window):
+    single = what[0] if len(what) == 1 else None
+    if isinstance(single, Followed | MotionGraph) and (at or window):
         raise MocapError("A graph and a walk bring windows of their own: leave out at= and window=.")
-    if isinstance(found, Followed):
-        choices = of_walk(found.graph, found.walk)
-        return Inspector(choices, tabs, found.track, found.path.points)
-    if isinstance(found, MotionGraph):
-        return Inspector(of_graph(found), tabs)
+    if isinstance(single, Followed):
+        choices = of_walk(single.graph, single.walk)
+        return Inspector(choices, tabs, single.track, single.path.points)
+    if isinstance(single, MotionGraph):
+        return Inspector(of_graph(single), tabs)
     clips = [clip for clip in what if isinstance(clip, Motion)]
     if not 0 < len(clips) == len(what) <= 2:
         raise MocapError("An inspector takes one or two clips, a graph, or what follow_path found.")
@@ -115,44 +125,59 @@ class Inspector(Embedded):
     choices: Choices
     show: tuple[str, ...]
     track: Array = field(default_factory=lambda: NOWHERE)
-    asked: Array = field(default_factory=lambda: NOWHERE)
+    path: Array = field(default_factory=lambda: NOWHERE)
     scripts = (*SHARED, TOUCH, *OWN)
 
     @cached_property
     def alt(self) -> str:
         """Which windows are looked at, how far apart they are, and at which turn."""
-        looked, (first, second) = self.choices, self.choices.windows
-        starts = looked.pick.i, looked.pick.j
-        frames, others = (f"{start} to {start + looked.window - 1}" for start in starts)
-        turn = f" at θ = {np.degrees(looked.fit.angle):.0f}°".replace("-", "−")
+        choices = self.choices
+        first, second = choices.windows
+        starts = choices.pick.i, choices.pick.j
+        frames, second_frames = (f"{start} to {start + choices.window - 1}" for start in starts)
+        turn = f" at θ = {np.degrees(choices.fit.angle):.0f}°".replace("-", "−")
         laid = turn if "turn" in self.show else ", aligned"
-        apart = f"RMS distance {100 * rms_distance(*looked.pair):.1f} cm{laid}"
-        return f"Frames {frames} of {first.name} and {others} of {second.name}: {apart}."
+        distance = f"RMS distance {100 * rms_distance(*choices.pair):.1f} cm{laid}"
+        return f"Frames {frames} of {first.name} and {second_frames} of {second.name}: {distance}."
 
     @cached_property
     def scene(self) -> dict[str, Any]:
         """What the scripts draw; `data` holds the clips' numbers and the grid's shades, compressed."""
-        choices, clips, show = self.choices, self.choices.clips, self.show
-        fps, data, abouts = clips[0].fps, b"", []
-        for number, clip in enumerate(clips):
-            about, block = packed_clip(clip, len(data), choices.needed(number))
-            abouts.append(about)
+        choices = self.choices
+        fps = choices.clips[0].fps
+        descriptions = []
+        data = b""
+        for number, clip in enumerate(choices.clips):
+            description, block = packed_clip(clip, len(data), choices.needed(number))
+            descriptions.append(description)
             data += block
         grid, shades = _shades(choices, len(data))
-        seams = [
-            {"pick": list(map(int, s[:4])), "before": s.before, "after": s.after, "frame": s.frame}
-            for s in choices.seams
-        ]
-        walk = {"path": self.track.round(3).tolist(), "asked": self.asked.round(3).tolist(), "seams": seams}
-        return {
-            **{"alt": self.alt, "fps": fps, "window": choices.window, "around": around(fps)},
-            **{"cells": CELLS, "tabs": list(show), "tab": show[-1] if show[-1] != "seam" else show[0]},
-            **{"skeleton": packed_skeleton(clips[0].skeleton), "clips": abouts, "colours": LOOK},
-            "pick": {name: int(value) for name, value in choices.pick._asdict().items()},
-            **{"grid": grid, "graph": _graph(choices), "walk": walk if seams else None},
-            "key": KEY + f" The grid by {choices.by}." * bool(choices.by),
-            "data": zlib.compress(data + shades, 9),
-        }
+        scene: dict[str, Any] = {"alt": self.alt, "fps": fps, "window": choices.window}
+        scene["around"] = margin_frames(fps)
+        scene["cells"] = CELLS
+        scene["tabs"] = list(self.show)
+        scene["tab"] = self.show[0] if self.show[-1] == "seam" else self.show[-1]
+        scene["skeleton"] = packed_skeleton(choices.clips[0].skeleton)
+        scene["clips"] = descriptions
+        scene["colours"] = LOOK
+        scene["pick"] = _pick(choices.pick)
+        scene["grid"] = grid
+        scene["graph"] = _graph(choices)
+        scene["walk"] = self._walk()
+        scene["key"] = f"{KEY} The grid by {choices.by}." if choices.by else KEY
+        scene["data"] = zlib.compress(data + shades, 9)
+        return scene
+
+    def _walk(self) -> dict[str, Any] | None:
+        """Return a walk from above with its seams, if there is one."""
+        if not self.choices.seams:
+            return None
+        seams = []
+        for seam in self.choices.seams:
+            pick = _pick(seam)
+            cell = [pick[name] for name in ("first", "i", "second", "j")]
+            seams.append({"pick": cell} | {name: pick[name] for name in ("before", "after", "frame")})
+        return {"path": self.track.round(3).tolist(), "asked": self.path.round(3).tolist(), "seams": seams}
 
     @cached_property
     def picture(self) -> bytes:
@@ -161,10 +186,11 @@ class Inspector(Embedded):
 
     def _draw_where(self, ax: Any) -> None:  # noqa: ANN401 (axes)
         """Draw what can be pointed at: the walk from above, or the graph along time, or the distance grid."""
-        choices, pick = self.choices, self.choices.pick
+        choices = self.choices
+        pick = choices.pick
         fps = choices.clips[0].fps
         if choices.seams:
-            ax.plot(*self.asked.T, color=ASKED, linewidth=5, alpha=0.6)
+            ax.plot(*self.path.T, color=ASKED, linewidth=5, alpha=0.6)
             ax.plot(*self.track.T, color=PATH, linewidth=2)
             for seam in choices.seams:
                 chosen = seam.seam == pick.seam  # which is larger
@@ -174,14 +200,16 @@ class Inspector(Embedded):
             ax.invert_xaxis()
         elif choices.graph is not None:
             timeline(choices.graph, each=EACH, most=MOST, ax=ax)
-            ends = [(pick.i / fps, -pick.first), ((pick.j + choices.window) / fps, -pick.second)]
-            ax.plot(*zip(*ends, strict=True), "o-", color=MARK, markeredgecolor="black", linewidth=2.5)
+            times = [pick.i / fps, (pick.j + choices.window) / fps]
+            ax.plot(
+                times, [-pick.first, -pick.second], "o-", color=MARK, markeredgecolor="black", linewidth=2.5
+            )
         elif choices.grid is not None:
             names = [clip.name for clip in choices.clips]
             distance_image(choices.grid, fps=fps, minima=choices.minima, names=names, ax=ax)
-            at = (pick.j + 0.5) / fps, (pick.i + 0.5) / fps
-            ax.plot(*at, "o", color="none", markeredgecolor="black", markersize=13, markeredgewidth=3)
-            ax.plot(*at, "o", color="none", markeredgecolor="white", markersize=13, markeredgewidth=1.5)
+            cell = (pick.j + 0.5) / fps, (pick.i + 0.5) / fps
+            ax.plot(*cell, "o", color="none", markeredgecolor="black", markersize=13, markeredgewidth=3)
+            ax.plot(*cell, "o", color="none", markeredgecolor="white", markersize=13, markeredgewidth=1.5)
 
 
 def _shades(choices: Choices, offset: int) -> tuple[dict[str, Any] | None, bytes]:
@@ -189,13 +217,21 @@ def _shades(choices: Choices, offset: int) -> tuple[dict[str, Any] | None, bytes
     if choices.grid is None:
         return None, b""
     distances = np.sqrt(choices.grid)
-    every = -(-max(distances.shape) // WIDEST)
-    rows, columns = (-(-count // every) for count in distances.shape)
-    rest = [(0, -count % every) for count in distances.shape]
-    least = np.pad(distances, rest, "edge").reshape(rows, every, columns, every).min(axis=(1, 3))
-    shades = np.round(255 * (least - least.min()) / max(float(np.ptp(least)), 1e-9)).astype(np.uint8)
-    about = {"rows": rows, "columns": columns, "every": every, "offset": offset, "minima": choices.minima}
-    return about, shades.tobytes()
+    size = -(-max(distances.shape) // WIDEST)  # rows and columns of a block
+    rows, columns = (-(-count // size) for count in distances.shape)
+    missing = [(0, -count % size) for count in distances.shape]
+    blocks = np.pad(distances, missing, "edge").reshape(rows, size, columns, size)
+    lowest = blocks.min(axis=(1, 3))
+    span = max(float(np.ptp(lowest)), 1e-9)
+    shades = np.round(255 * (lowest - lowest.min()) / span).astype(np.uint8)
+    description = {"rows": rows, "columns": columns, "every": size, "offset": offset}
+    return description | {"minima": choices.minima}, shades.tobytes()
+
+
+def _pick(pick: Pick) -> dict[str, int]:
+    """Return two windows as the scripts name their parts."""
+    values = {name: int(value) for name, value in pick._asdict().items()}
+    return {name.removeprefix("margin_"): value for name, value in values.items()}
 
 
 def _graph(choices: Choices) -> dict[str, Any] | None:
@@ -241,14 +277,11 @@ def packed_clip(motion: Motion, offset: int, needed: Mask) -> tuple[dict[str, An
     standing = np.zeros((len(SIDES), len(motion)), int)
     for name, marks in with_contacts(motion).contacts.items():
         standing[SIDES.index(motion.skeleton.side(motion.skeleton.index(name)))] |= marks
-    about = {
-        **{"name": motion.name, "frames": len(motion), "channels": numbers.shape[1], "offset": offset},
-        **{
-            "origin": origin[[0, 2]].tolist(),
-            "plants": "".join(map(str, 2 * standing[1] + 4 * standing[2])),
-        },
-    }
-    return about, planes.tobytes()
+    _, left, right = standing
+    description: dict[str, Any] = {"name": motion.name, "frames": len(motion)}
+    description |= {"channels": numbers.shape[1], "offset": offset, "origin": origin[[0, 2]].tolist()}
+    description["plants"] = "".join(map(str, 2 * left + 4 * right))
+    return description, planes.tobytes()
 
 
 def packed_skeleton(skeleton: Skeleton) -> dict[str, Any]:
@@ -266,11 +299,15 @@ def packed_skeleton(skeleton: Skeleton) -> dict[str, Any]:
         balls = [leg.ball for leg in find_legs(skeleton)]
     except MocapError:
         balls = []
-    return {
-        "parents": skeleton.parents.tolist(),
-        "offsets": skeleton.offsets.tolist(),
-        "points": list(map(int, distinct_joints(skeleton))),
-        "bones": [[int(joints[a]), int(joints[b]), side] for a, b, side in body["bones"]],
-        "head": None if body["head"] is None else int(joints[body["head"]]),
-        "feet": [[int(ball), SIDES.index(skeleton.side(ball))] for ball in balls],
-    }
+    drawn: dict[str, Any] = {"parents": skeleton.parents.tolist(), "offsets": skeleton.offsets.tolist()}
+    drawn["points"] = list(map(int, distinct_joints(skeleton)))
+    drawn["bones"] = [_bone(joints, bone) for bone in body["bones"]]
+    drawn["head"] = None if body["head"] is None else int(joints[body["head"]])
+    drawn["feet"] = [[int(ball), SIDES.index(skeleton.side(ball))] for ball in balls]
+    return drawn
+
+
+def _bone(joints: Indices, bone: Sequence[int]) -> list[int]:
+    """Return the joints at both ends of a bone, and its side."""
+    start, end, side = bone
+    return [int(joints[start]), int(joints[end]), side]

@@ -130,6 +130,8 @@ def _summed(answers: Sequence[Answer], texts: list[str], points: Points) -> Give
 def _mark_of(awarded: Sequence[tuple[Answer, str]]) -> Mark:
     """Return the mark of a student's answers in words."""
     total = round(sum(float(text) for _, text in awarded), 4)
+    if total.is_integer():
+        total = int(total)
     said = ", ".join(f"{answer.question}: {text}" for answer, text in awarded)
     first, _ = awarded[0]
     return Mark(first.handed_in, KIND, total > 0, said, awarded=total)

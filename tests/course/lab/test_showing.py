@@ -13,7 +13,7 @@ from PIL import Image
 
 from mocap.body import GroundPath, Motion, PlanarTransform, Skeleton, joint_positions, resample
 from mocap.course import lab
-from mocap.course.lab.choices import EACH, LONGEST, around, of_clips, of_graph, of_walk
+from mocap.course.lab.choices import EACH, LONGEST, margin_frames, of_clips, of_graph, of_walk
 from mocap.course.lab.showing import STEP, TABS, Inspector, inspector, packed_clip, packed_skeleton
 from mocap.datasets.samples import sample
 from mocap.graphs import compile_graph, from_transitions
@@ -74,8 +74,8 @@ def test_seams_of_a_walk_come_with_the_frames_that_the_walk_has_around_them(grap
     assert [pick.frame for pick in choices.seams] == [seam.frame for seam in found]
     assert choices.pick.seam == np.argmax([seam.cost for seam in found])
     for one, after in zip(choices.seams, choices.seams[1:], strict=False):
-        assert one.frame + graph.window + one.after <= after.frame
-        assert after.before <= min(around(30), after.frame - one.frame - graph.window)
+        assert one.frame + graph.window + one.margin_after <= after.frame
+        assert after.margin_before <= min(margin_frames(30), after.frame - one.frame - graph.window)
     for seam, taken in enumerate(choices.seams):
         assert taken.seam == seam and choices.transitions[taken.number][:4] == taken[:4]
 

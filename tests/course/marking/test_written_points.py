@@ -42,6 +42,11 @@ def test_points_are_summed_for_each_student(tmp_path):
     assert given.marks[0].said == "design-1: 2, prediction-1: 1.5"
 
 
+def test_whole_sums_are_written_without_a_point(tmp_path):
+    (mark,) = read_given_points(table(tmp_path, "2.5", "1.5"), ANSWERS, {}).marks
+    assert f"{mark.awarded}" == "4"
+
+
 def test_answers_without_points_are_counted_and_texts_of_students_are_not(tmp_path):
     given = read_given_points(table(tmp_path, "2"), ANSWERS, {"written": 3})
     assert given.without == 2
