@@ -28,12 +28,13 @@ Reading order (notebooks 08, 12, 17, 18)
 15. `directing`: walks that follow a direction: they stand, wait, turn and arrive
 16. `characters`: the protocol, the pose of a step, a walk by given commands, and the delay of its response
 17. `graph_control`: a character on a motion graph, and its look-ahead
-18. `leg_reach`: inverse kinematics of a leg in closed form
-19. `held_feet`: standing feet are held while a character moves on
-20. `root_turning`: the way to steer: additional rotation about the root, longer or shorter steps, held feet
-21. `foot_turning`: additional rotation about the planted foot, as a comparison
-22. `judged_control`: one evaluation protocol for all characters
-23. `tuned`: the constants that trials chose
+18. `plain_vectors`: vectors and rotations in plain numbers
+19. `leg_reach`: inverse kinematics of a leg in closed form
+20. `held_feet`: standing feet are held while a character moves on
+21. `root_turning`: the way to steer: additional rotation about the root, longer or shorter steps, held feet
+22. `foot_turning`: additional rotation about the planted foot, as a comparison
+23. `judged_control`: one evaluation protocol for all characters
+24. `tuned`: the constants that trials chose
 
 References
 ----------
