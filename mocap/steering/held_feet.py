@@ -2,9 +2,10 @@
 
 A foot that stands is held where it came down: its position on the ground, and its heading as long as its
 ankle stands. When only the ball stands, the foot pivots about it, as feet do. The leg follows by inverse
-kinematics. When the foot lifts, its offset from the clip fades by a critically damped spring, so that nothing
-jumps. The positions are those of footskate cleanup [KSG02]; the spring that fades them is a game's
-inertialization [Bol18]. To fade without knowing the next frames is what control needs.
+kinematics. A leg that is too short for that lifts its heel, and the hips are lowered by a spring. When the
+foot lifts, its offset from the clip fades by another critically damped spring, so that nothing jumps. The
+positions are those of footskate cleanup [KSG02]; the spring that fades them is a game's inertialization
+[Bol18]. To fade without knowing the next frames is what control needs.
 """
 
 from __future__ import annotations
@@ -12,13 +13,19 @@ from __future__ import annotations
 import cmath
 import math
 
+import numpy as np
+
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
 from mocap.steering.characters import Pose
-from mocap.steering.leg_reach import JointedLeg, Vector, knee_axis, subtract
+from mocap.steering.leg_reach import JointedLeg, PlacedLeg, knee_axis
+from mocap.steering.plain_vectors import Vector, subtract
 
 HALFLIFE = 0.2  # seconds, of the spring that fades the offset of a foot in the air. 0.1 to 0.3 are as good
+HEEL_HALFLIFE = 0.1  # seconds, of the spring that lowers a heel. A step later no heel is lifted anymore
+HIP_HALFLIFE = 0.1  # seconds, of the spring that lowers the hips. At 0.15 feet of long steps slide by 1.4 cm
+LOWEST = 0.05  # metres: the hips are lowered by no more. At 0 feet slide by up to 3 cm
 UNCHANGED = 1e-9  # metres or radians: a foot with a smaller offset is as in its clip
 
 
@@ -43,7 +50,8 @@ class HeldFoot:
     """The state of one foot: how far it is from its clip, and which of its joints is held.
 
     `offset` is that of the ankle on the ground, z + ix in metres, and `yaw` that of the foot's heading,
-    radians, with their velocities. `anchor` is the joint that is held at `position`, or None.
+    radians, with their velocities. `lift` is the angle by which the heel is lifted about the ball, radians.
+    `anchor` is the joint that is held at `position`, or None.
 
     Parameters
     ----------
@@ -66,6 +74,7 @@ class HeldFoot:
         self.seconds = seconds
         self.offset = self.offset_velocity = 0j
         self.yaw = self.yaw_velocity = 0.0
+        self.lift = self.lift_velocity = 0.0
         self.anchor: str | None = None
         self.position = 0j  # of the anchor
         self.heading = 0.0  # of a foot whose ankle is held, radians
@@ -84,7 +93,7 @@ class HeldFoot:
         yaw = self.yaw
         anchor = "ankle" if ankle_stands else "ball" if ball_stands else None
         if anchor != self.anchor:
-            self._change_anchor(anchor, ankle, toes)
+            self._change_anchor(anchor, ankle, toes, ball_stands=ball_stands)
         if anchor == "ankle":
             self.yaw = math.remainder(self.heading - cmath.phase(toes), 2 * math.pi)
             self.offset = self.position - ankle
@@ -102,13 +111,25 @@ class HeldFoot:
         stands = {"ankle": ankle_stands, "ball": ball_stands}
         self.shown = {joint: place for joint, place in positions.items() if stands[joint]}
 
+    def lift_heel(self, needed: float) -> None:
+        """Lift the heel as far as needed, radians, or lower it by its spring if that is slower."""
+        lift = self.lift
+        faded, velocity = fade(lift, self.lift_velocity, HEEL_HALFLIFE, self.seconds)
+        self.lift = max(needed, faded.real)
+        self.lift_velocity = velocity.real if self.lift > needed else (needed - lift) / self.seconds
+
     def _positions(self, ankle: complex, toes: complex) -> dict[str, complex]:
         """Return the positions of ankle and ball with the offset."""
         shown = ankle + self.offset
         return {"ankle": shown, "ball": shown + toes * cmath.exp(1j * self.yaw)}
 
-    def _change_anchor(self, anchor: str | None, ankle: complex, toes: complex) -> None:
-        """Hold another joint: where it stood in the previous frame, or where it comes down now."""
+    def _change_anchor(self, anchor: str | None, ankle: complex, toes: complex, *, ball_stands: bool) -> None:
+        """Hold another joint: where it stood in the previous frame, or where it comes down now.
+
+        A ball that stands stays also in the frame in which its ankle comes down.
+        """
+        if self.anchor == "ball" and ball_stands:
+            self.offset = self.position - ankle - toes * cmath.exp(1j * self.yaw)
         if anchor is not None:
             self.position = self.shown.get(anchor, self._positions(ankle, toes)[anchor])
             self.heading = cmath.phase(toes) + self.yaw
@@ -158,24 +179,47 @@ class HeldFeet:
         self.names = clip.skeleton.names
         legs = find_legs(clip.skeleton)
         self.legs = [JointedLeg(clip.skeleton, leg, knee_axis(clip, leg)) for leg in legs]
+        self.lowered = 0.0  # metres, of the hips
+        self.lowering = 0.0  # metres per second
         self.feet = [HeldFoot(halflife, 1 / clip.fps) for _ in legs]
 
     def hold(self, pose: Pose) -> Pose:
-        """Return the next pose with its standing feet held; only the rotations of the legs change."""
+        """Return the next pose with its standing feet held: the legs bend, and the hips are lowered."""
+        placed_legs = [jointed.place(pose.root_position, pose.rotations) for jointed in self.legs]
+        for jointed, foot, placed in zip(self.legs, self.feet, placed_legs, strict=True):
+            self._follow(jointed, foot, placed, pose)
+        self._lower(placed_legs)
         rotations = pose.rotations.copy()
-        for jointed, foot in zip(self.legs, self.feet, strict=True):
-            placed = jointed.place(pose.root_position, pose.rotations)
-            leg = jointed.leg
-            ankle = placed.positions[leg.ankle]
-            toes = subtract(placed.positions[leg.ball], ankle) if leg.has_ball else jointed.forward(placed)
-            ankle_stands = pose.contacts.get(self.names[leg.ankle], False)
-            ball_stands = pose.contacts.get(self.names[leg.ball], False)
-            foot.follow(ground(ankle), ground(toes), ankle_stands=ankle_stands, ball_stands=ball_stands)
-            if max(abs(foot.offset), abs(foot.yaw)) > UNCHANGED:
-                offset = (foot.offset.imag, 0.0, foot.offset.real)
-                for joint, rotation in jointed.bend(placed, offset, foot.yaw).items():
+        for jointed, foot, placed in zip(self.legs, self.feet, placed_legs, strict=True):
+            offset = (foot.offset.imag, self.lowered, foot.offset.real)  # seen from the lowered hip
+            can_lift = "ball" in foot.shown or (foot.anchor is None and jointed.trails(placed, offset))
+            foot.lift_heel(jointed.heel_lift(placed, offset, foot.yaw) if can_lift else 0.0)
+            if max(abs(foot.offset), abs(foot.yaw), foot.lift, self.lowered) > UNCHANGED:
+                for joint, rotation in jointed.bend(placed, offset, foot.yaw, foot.lift).items():
                     rotations[joint] = rotation
-        return pose._replace(rotations=rotations)
+        root_position = pose.root_position - np.array([0.0, self.lowered, 0.0])
+        return pose._replace(root_position=root_position, rotations=rotations)
+
+    def _follow(self, jointed: JointedLeg, foot: HeldFoot, placed: PlacedLeg, pose: Pose) -> None:
+        """Let a foot take the next frame of its clip."""
+        leg = jointed.leg
+        ankle = placed.positions[leg.ankle]
+        toes = subtract(placed.positions[leg.ball], ankle) if leg.has_ball else jointed.forward(placed)
+        ankle_stands = pose.contacts.get(self.names[leg.ankle], False)
+        ball_stands = pose.contacts.get(self.names[leg.ball], False)
+        foot.follow(ground(ankle), ground(toes), ankle_stands=ankle_stands, ball_stands=ball_stands)
+
+    def _lower(self, placed_legs: list[PlacedLeg]) -> None:
+        """Lower the hips by their spring, towards where both legs reach their targets."""
+        needed = 0.0
+        for jointed, foot, placed in zip(self.legs, self.feet, placed_legs, strict=True):
+            offset = (foot.offset.imag, 0.0, foot.offset.real)
+            needed = max(needed, jointed.shortfall(placed, offset))
+        goal = min(needed, LOWEST)
+        seconds = self.feet[0].seconds
+        missing, velocity = fade(self.lowered - goal, self.lowering, HIP_HALFLIFE, seconds)
+        self.lowered = goal + missing.real
+        self.lowering = velocity.real
 
     def twists(self) -> list[float]:
         """Return by how much each foot whose ankle stands is turned from its clip, radians."""

@@ -2,7 +2,8 @@
 
 A leg is two bones with a hinge between them, the knee. The knee's flexion sets the distance from hip to
 ankle, and a rotation at the hip then points the leg at its target [TGB00]. All bones keep their lengths.
-Vectors are tuples (x, y, z) in metres, rotations are unit quaternions (w, x, y, z).
+A target beyond the leg's reach is brought within it as people do: by a heel that lifts, while the ball of
+the foot stays, or by a lower hip. Lengths are in metres.
 """
 
 from __future__ import annotations
@@ -17,143 +18,26 @@ from mocap.body.kinematics import forward_kinematics, hinge_of
 from mocap.body.legs import Leg
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
+from mocap.steering.plain_vectors import (
+    UP,
+    Quaternion,
+    Vector,
+    add,
+    axis_rotation,
+    conjugate,
+    cross,
+    dot,
+    length,
+    multiply,
+    rotate,
+    shortest_arc,
+    subtract,
+)
 
-Vector = tuple[float, float, float]
-Quaternion = tuple[float, float, float, float]
-
-UP: Vector = (0.0, 1.0, 0.0)
 SOFT = 0.97  # of a straight leg: up to this distance of the ankle from the hip a leg reaches its target
 STRAIGHT = 0.999  # of a straight leg: no target stretches a leg further
+STEEPEST = math.radians(75)  # of a foot against the ground: its heel lifts no further
 CLIP_FRAMES = 3000  # frames of a clip that show how its knees bend
-
-
-def add(first: Vector, second: Vector) -> Vector:
-    """Return the sum of two vectors.
-
-    Examples
-    --------
-    >>> add((1.0, 2.0, 3.0), (1.0, 0.0, 0.0))
-    (2.0, 2.0, 3.0)
-    """
-    x, y, z = first
-    a, b, c = second
-    return x + a, y + b, z + c
-
-
-def subtract(first: Vector, second: Vector) -> Vector:
-    """Return the difference of two vectors.
-
-    Examples
-    --------
-    >>> subtract((1.0, 2.0, 3.0), (1.0, 0.0, 0.0))
-    (0.0, 2.0, 3.0)
-    """
-    x, y, z = first
-    a, b, c = second
-    return x - a, y - b, z - c
-
-
-def dot(first: Vector, second: Vector) -> float:
-    """Return the scalar product of two vectors.
-
-    Examples
-    --------
-    >>> dot((1.0, 2.0, 3.0), (1.0, 0.0, 1.0))
-    4.0
-    """
-    x, y, z = first
-    a, b, c = second
-    return x * a + y * b + z * c
-
-
-def cross(first: Vector, second: Vector) -> Vector:
-    """Return the vector product of two vectors.
-
-    Examples
-    --------
-    >>> cross((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
-    (0.0, 0.0, 1.0)
-    """
-    x, y, z = first
-    a, b, c = second
-    i = y * c - z * b
-    j = z * a - x * c
-    k = x * b - y * a
-    return i, j, k
-
-
-def multiply(first: Quaternion, second: Quaternion) -> Quaternion:
-    """Return the product of two quaternions: the rotation by `second`, then by `first`.
-
-    Examples
-    --------
-    >>> multiply((0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0))
-    (0.0, 0.0, 0.0, 1.0)
-    """
-    w, x, y, z = first
-    a, b, c, d = second
-    real = w * a - x * b - y * c - z * d
-    i = w * b + x * a + y * d - z * c
-    j = w * c - x * d + y * a + z * b
-    k = w * d + x * c - y * b + z * a
-    return real, i, j, k
-
-
-def conjugate(quaternion: Quaternion) -> Quaternion:
-    """Return the inverse of a unit quaternion.
-
-    Examples
-    --------
-    >>> conjugate((0.5, 0.5, 0.5, -0.5))
-    (0.5, -0.5, -0.5, 0.5)
-    """
-    w, x, y, z = quaternion
-    return w, -x, -y, -z
-
-
-def rotate(quaternion: Quaternion, vector: Vector) -> Vector:
-    """Rotate a vector: v + w t + u × t with t = 2 u × v, for the quaternion (w, u).
-
-    Examples
-    --------
-    >>> rotate((0.0, 0.0, 1.0, 0.0), (1.0, 2.0, 3.0))
-    (-1.0, 2.0, -3.0)
-    """
-    w, x, y, z = quaternion
-    axis = (x, y, z)
-    i, j, k = cross(axis, vector)
-    twice = (2 * i, 2 * j, 2 * k)
-    turned = add(vector, cross(axis, twice))
-    return add(turned, (2 * w * i, 2 * w * j, 2 * w * k))
-
-
-def axis_rotation(axis: Vector, angle: float) -> Quaternion:
-    """Return the rotation about a unit axis by an angle in radians.
-
-    Examples
-    --------
-    >>> axis_rotation((0.0, 1.0, 0.0), math.pi)[2]
-    1.0
-    """
-    x, y, z = axis
-    sine = math.sin(angle / 2)
-    return math.cos(angle / 2), sine * x, sine * y, sine * z
-
-
-def shortest_arc(start: Vector, end: Vector) -> Quaternion:
-    """Return the smallest rotation from one direction to another, which are not opposite.
-
-    The quaternion (|a||b| + a·b, a × b), normalised, because half of its angle is that between a and a + b.
-
-    Examples
-    --------
-    >>> [round(number, 3) for number in shortest_arc((0.0, 0.0, 2.0), (3.0, 0.0, 0.0))]
-    [0.707, 0.0, 0.707, 0.0]
-    """
-    w = math.sqrt(dot(start, start) * dot(end, end)) + dot(start, end)
-    x, y, z = cross(start, end)
-    norm = math.sqrt(w * w + x * x + y * y + z * z)
-    return w / norm, x / norm, y / norm, z / norm
 
 
 def hinge_angle(axis: Vector, base: Vector, segment: Vector, distance: float) -> float:
@@ -298,52 +182,116 @@ class JointedLeg:
         """Return the direction in which the knee points: perpendicular to its axis and the vertical."""
         return cross(rotate(placed.rotations[self.leg.knee], self.axis), UP)
 
-    def bend(self, placed: PlacedLeg, offset: Vector, yaw: float) -> dict[int, Quaternion]:
-        """Move the ankle by an offset, and turn knee and foot by a yaw; return the new local rotations.
+    def shortfall(self, placed: PlacedLeg, offset: Vector) -> float:
+        """Return by how much the hip must be lower, so that the ankle reaches a target; metres.
+
+        The target counts as reached where `soft_reach` leaves it as it is. A target so far aside that no
+        lower hip brings it within reach is measured from its height.
+
+        Parameters
+        ----------
+        placed : the leg as it is.
+        offset : of the target from the ankle, metres.
+        """
+        hip, _, ankle, _ = self.leg
+        start = subtract(placed.positions[ankle], placed.positions[hip])
+        x, y, z = add(start, offset)
+        reach = max(SOFT * self.length, length(start))
+        aside = x * x + z * z
+        if aside + y * y <= reach * reach:
+            return 0.0
+        return max(0.0, -y - math.sqrt(max(0.0, reach * reach - aside)))
+
+    def heel_lift(self, placed: PlacedLeg, offset: Vector, yaw: float) -> float:
+        """Return by which angle the heel must lift, so that the ball of the foot stays where it is; radians.
+
+        The foot pivots about its ball until its ankle is as near to the hip as `soft_reach` allows. A foot
+        ahead of the hip does not: to lift its heel would not bring its ankle nearer. Without a ball, 0.
+
+        Parameters
+        ----------
+        placed : the leg as it is.
+        offset : of the target from the ankle, metres.
+        yaw : of the foot, radians about the vertical.
+        """
+        hip, _, ankle, _ = self.leg
+        start = subtract(placed.positions[ankle], placed.positions[hip])
+        target = add(start, offset)
+        distance = length(target)
+        reach = soft_reach(distance, length(start), self.length)
+        if reach >= distance or not self.leg.has_ball:
+            return 0.0
+        foot = self._foot(placed, yaw)
+        x, y, z = foot
+        lift = hinge_angle(_lateral(foot), add(target, foot), foot, reach)
+        slope = math.atan2(-y, math.hypot(x, z))
+        return max(0.0, min(lift, STEEPEST - slope))
+
+    def trails(self, placed: PlacedLeg, offset: Vector) -> bool:
+        """Return whether the target of the ankle is behind the hip, seen in the direction of the foot."""
+        hip, _, ankle, _ = self.leg
+        x, _, z = add(subtract(placed.positions[ankle], placed.positions[hip]), offset)
+        toes_x, _, toes_z = self._foot(placed, 0.0)
+        return x * toes_x + z * toes_z < 0
+
+    def _foot(self, placed: PlacedLeg, yaw: float) -> Vector:
+        """Return the vector from the ankle to the ball of a foot that is turned by a yaw."""
+        _, _, ankle, ball = self.leg
+        foot = subtract(placed.positions[ball], placed.positions[ankle])
+        return rotate(axis_rotation(UP, yaw), foot)
+
+    def bend(self, placed: PlacedLeg, offset: Vector, yaw: float, lift: float = 0.0) -> dict[int, Quaternion]:
+        """Move the ankle by an offset, turn knee and foot by a yaw, lift the heel; return local rotations.
 
         The knee flexes by F about its axis to the distance of the target. The leg turns by the yaw Y about
         the vertical, as a hip does above a foot that stands, and swings by the shortest arc S to its target.
-        With the global rotations G of joints and their parents P, the local rotations are
-        P⁻¹ S Y G of the hip, P⁻¹ F G of the knee, and (S Y F P)⁻¹ Y G of the ankle.
+        The foot is lifted by L about its ball, and its toes stay as they are. With the global rotations G of
+        joints and their parents P, the local rotations are P⁻¹ S Y G of the hip, P⁻¹ F G of the knee,
+        (S Y F P)⁻¹ L Y G of the ankle, and (L Y P)⁻¹ Y G of the ball.
 
         Parameters
         ----------
         placed : the leg as it is.
         offset : metres. A target that is too far is approached, see `soft_reach`.
         yaw : radians about the vertical.
+        lift : of the heel, radians about the ball.
         """
-        hip, knee, ankle, _ = self.leg
+        hip, knee, ankle, ball = self.leg
         positions, rotations = placed
         thigh = subtract(positions[hip], positions[knee])
         shank = subtract(positions[ankle], positions[knee])
-        target = add(subtract(shank, thigh), offset)  # from the hip
+        foot = self._foot(placed, yaw)
+        raised = axis_rotation(_lateral(foot), lift)
+        towards_ball = subtract(foot, rotate(raised, foot))
+        target = add(add(subtract(shank, thigh), offset), towards_ball)  # from the hip
+        turn = axis_rotation(UP, yaw)
+        foot_rotation = multiply(raised, turn)
         distance = soft_reach(length(target), length(subtract(shank, thigh)), self.length)
         axis = rotate(rotations[knee], self.axis)
         flexion = axis_rotation(axis, hinge_angle(axis, thigh, shank, distance))
-        turn = axis_rotation(UP, yaw)
         turned = rotate(turn, subtract(rotate(flexion, shank), thigh))
         leg_rotation = multiply(shortest_arc(turned, target), turn)
-        foot = multiply(turn, rotations[ankle])
         above_hip, above_knee, above_ankle = (rotations[self.parents[joint]] for joint in (hip, knee, ankle))
         new_thigh = multiply(leg_rotation, rotations[hip])
         new_shank = multiply(flexion, rotations[knee])
+        new_foot = multiply(foot_rotation, rotations[ankle])
         new_above_ankle = multiply(leg_rotation, multiply(flexion, above_ankle))
-        return {
+        bent = {
             hip: multiply(conjugate(above_hip), new_thigh),
             knee: multiply(conjugate(above_knee), new_shank),
-            ankle: multiply(conjugate(new_above_ankle), foot),
+            ankle: multiply(conjugate(new_above_ankle), new_foot),
         }
+        if lift:
+            new_above_ball = multiply(foot_rotation, rotations[self.parents[ball]])
+            bent[ball] = multiply(conjugate(new_above_ball), multiply(turn, rotations[ball]))
+        return bent
 
 
-def length(vector: Vector) -> float:
-    """Return the length of a vector.
-
-    Examples
-    --------
-    >>> length((3.0, 0.0, 4.0))
-    5.0
-    """
-    return math.sqrt(dot(vector, vector))
+def _lateral(foot: Vector) -> Vector:
+    """Return the horizontal axis across a foot, about which a positive rotation lifts its heel."""
+    x, _, z = foot
+    ahead = math.hypot(x, z)
+    return (z / ahead, 0.0, -x / ahead) if ahead else (1.0, 0.0, 0.0)
 
 
 def _vector(values: Array) -> Vector:

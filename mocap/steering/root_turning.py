@@ -2,8 +2,8 @@
 
 A motion graph turns only where its clips turn, and has their speeds. But a figure that is turned about its
 root and moved along its path, by a little in each frame, obeys at once, and its root does not jump. Its
-standing feet would slide, so that `HeldFeet` holds them, and the legs take up the difference. All of this is
-ours; the papers change the motion afterwards [Gle01], when the whole path is known.
+standing feet would slide, so that `HeldFeet` holds them: legs, heels and hips take up the difference. This
+is ours; the papers change the motion afterwards [Gle01], when the whole path is known.
 """
 
 from __future__ import annotations

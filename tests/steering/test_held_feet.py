@@ -8,23 +8,20 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from mocap.body import Leg, Motion, joint_positions, rotations
+from mocap.body import Leg, Motion, forward_kinematics, joint_positions, rotations
 from mocap.datasets import sample
 from mocap.steering import HeldFeet
 from mocap.steering.characters import Pose
-from mocap.steering.held_feet import HeldFoot, fade
+from mocap.steering.held_feet import LOWEST, HeldFoot, fade
 from mocap.steering.leg_reach import (
     SOFT,
     STRAIGHT,
     JointedLeg,
-    axis_rotation,
     hinge_angle,
     knee_axis,
-    multiply,
-    rotate,
-    shortest_arc,
     soft_reach,
 )
+from mocap.steering.plain_vectors import axis_rotation, multiply, rotate, shortest_arc
 from tests.bundled import clips
 from tests.refusals import refusals
 
@@ -32,6 +29,9 @@ WALK = sample("walk_straight")
 LEG = Leg(2, 3, 4, 5)
 KNEE_BENDS = rotations.angle_between(WALK.rotations[:, LEG.knee], rotations.IDENTITY)
 BENT = WALK.root_positions[KNEE_BENDS.argmax()], WALK.rotations[KNEE_BENDS.argmax()]  # no limit is near
+STANDS = WALK.contacts["lfoot"] & WALK.contacts["ltoes"]
+STANDING = int(np.flatnonzero(STANDS)[np.argmin(KNEE_BENDS[STANDS])])
+UPRIGHT = WALK.root_positions[STANDING], WALK.rotations[STANDING]  # on a flat left foot, its leg straight
 numbers = st.floats(-2, 2)
 vectors = st.tuples(numbers, numbers, numbers).filter(lambda v: np.linalg.norm(v) > 0.1)
 
@@ -171,6 +171,52 @@ def test_a_foot_whose_ankle_lifts_pivots_about_the_ball_where_it_stood():
     assert np.ptp(balls, axis=0)[[0, 2]].max() < 1e-6
     turned_back = fade(-0.03 * 6, -0.03 * WALK.fps, 0.2, 7 / WALK.fps)[0]
     assert feet.feet[0].yaw == pytest.approx(turned_back)
+
+
+def test_a_ball_that_comes_down_before_its_ankle_stays_where_it_is():
+    """The clip moves on by 3 cm in the frame in which the ankle takes over."""
+    foot = HeldFoot(0.2, 1 / 30)
+    foot.follow(0.00 + 0j, 0.1 + 0j, ankle_stands=False, ball_stands=True)
+    foot.follow(0.03 + 0j, 0.1 + 0j, ankle_stands=True, ball_stands=True)
+    assert foot.anchor == "ankle" and foot.offset == pytest.approx(-0.03)
+
+
+def leading(distance):
+    """Move the body ahead of a flat left foot by a distance within half a second: the poses shown."""
+    moves = [(np.array([0.0, 0.0, distance * n / 15]), 0.0) for n in range(16)]
+    return [(held.root_position, held.rotations) for held in standing_still(UPRIGHT, moves)]
+
+
+def test_a_heel_lifts_and_the_hips_sink_where_the_leg_is_too_short():
+    """The body goes ahead by 30 cm: the ball stays, neither in the air nor in the floor."""
+    shown = leading(0.30)
+    ankles, balls = np.transpose([moved(pose)[2:] for pose in shown], (1, 0, 2))
+    assert np.ptp(balls, axis=0).max() < 0.01
+    assert ankles[-1, 1] - ankles[0, 1] > 0.03
+    assert 0.005 < UPRIGHT[0][1] - shown[-1][0][1] <= LOWEST
+
+
+def test_nothing_sinks_or_lifts_within_reach():
+    root, turns = leading(0.02)[-1]
+    assert root[1] == pytest.approx(UPRIGHT[0][1], abs=1e-3)
+    before, after = (moved(pose)[2:] for pose in (UPRIGHT, (root, turns)))
+    np.testing.assert_allclose(before, after, atol=2e-3)
+
+
+@pytest.mark.parametrize("lift", [0.0, 0.2, 0.5])
+def test_a_lifted_heel_turns_the_foot_about_its_ball_and_not_the_toes(lift):
+    leg = JointedLeg(WALK.skeleton, LEG, knee_axis(WALK, LEG))
+    turns = BENT[1].copy()
+    for joint, rotation in leg.bend(leg.place(*BENT), (0.0, 0.0, 0.0), 0.0, lift).items():
+        turns[joint] = rotation
+    before = forward_kinematics(Motion(WALK.skeleton, BENT[0][None], BENT[1][None], 30.0))
+    after = forward_kinematics(Motion(WALK.skeleton, BENT[0][None], turns[None], 30.0))
+    for unchanged in (old[0, LEG.ball] - new[0, LEG.ball] for old, new in zip(before, after, strict=True)):
+        np.testing.assert_allclose(unchanged, 0, atol=1e-9)
+    feet = [points[0, LEG.ankle] - points[0, LEG.ball] for points in (before[0], after[0])]
+    cosine = feet[0] @ feet[1] / np.linalg.norm(feet[0]) ** 2
+    assert math.acos(min(1.0, cosine)) == pytest.approx(lift, abs=1e-6)
+    assert feet[1][1] >= feet[0][1] - 1e-12
 
 
 @pytest.mark.parametrize("name", ["walk_curve_1", "jog"])

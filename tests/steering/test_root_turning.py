@@ -12,6 +12,7 @@ from mocap.methods.motion_matching import MotionMatcher
 from mocap.methods.parametric_graphs import ParametricController
 from mocap.quality import foot_sliding, jumps, spread
 from mocap.steering import Controller, FootTurner, RootTurner, command_headings, measure_delay, steer
+from mocap.steering.held_feet import LOWEST
 from tests.bundled import WALKS, bundled, clips
 from tests.methods.motion_matching.matched import walks
 from tests.methods.parametric_graphs.built import stepping
@@ -74,7 +75,9 @@ def test_without_turning_and_stretching_the_root_walks_as_the_character_does():
     headings = command_headings(6, 30, seed=2)
     held = steer(RootTurner(Controller(GRAPH), 0.0, stretch=0.0), headings, 1.0).motion
     alone = steer(Controller(GRAPH), headings, 1.0).motion
-    np.testing.assert_allclose(held.root_positions, alone.root_positions, atol=1e-9)
+    np.testing.assert_allclose(on_ground(held.root_positions), on_ground(alone.root_positions), atol=1e-9)
+    lowered = alone.root_positions[:, 1] - held.root_positions[:, 1]
+    assert lowered.min() > -1e-3 and lowered.max() <= LOWEST  # for legs that are too short in blended poses
     assert np.mean(far(held)) < 0.3 * np.mean(far(alone))
 
 
