@@ -1,5 +1,7 @@
 """Forward kinematics of a motion, velocities, and the detection of hinge joints."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from mocap._shared.arrays import Array
@@ -8,6 +10,7 @@ from mocap.body.joint_trees import GlobalPoses as GlobalPoses
 from mocap.body.joint_trees import place_joints
 from mocap.body.joint_trees import velocities as velocities
 from mocap.body.motion import Motion, require_motion
+from mocap.body.skeleton import Skeleton
 from mocap.body.tuned import TUNED
 
 
@@ -52,6 +55,26 @@ def joint_positions(motion: Motion) -> Array:
     Notebook: 01-skeletons-and-clips
     """
     return forward_kinematics(motion).positions
+
+
+def positions_of(motion: Motion, joints: Sequence[int]) -> Array:
+    """Compute the positions of N joints alone, shape (F, N, 3), metres: only joints above them are placed.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[:10]
+    >>> bool((positions_of(walk, [5, 3]) == joint_positions(walk)[:, [5, 3]]).all())
+    True
+    """
+    skeleton = motion.skeleton
+    placed = sorted({above for joint in joints for above in skeleton.path_to_root(joint)})
+    row = {joint: number for number, joint in enumerate(placed)}
+    names = [skeleton.names[joint] for joint in placed]
+    parents = [row.get(int(skeleton.parents[joint]), -1) for joint in placed]
+    limbs = Skeleton(names, parents, skeleton.offsets[placed])
+    world = place_joints(limbs, motion.root_positions, motion.rotations[:, placed])
+    return world.positions[:, [row[joint] for joint in joints]]
 
 
 def hinge_of(motion: Motion, joint: int) -> Array | None:

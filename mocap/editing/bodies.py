@@ -13,11 +13,12 @@ from mocap.body.kinematics import hinge_of
 from mocap.body.motion import rotating_joints
 from mocap.editing.constraints import Pins
 from mocap.editing.displacements import Displacement, right_jacobian
-from mocap.editing.poses import ROOT, ROTATIONS, MotionOrPoses, Poses, WorldAxes, poses_of
+from mocap.editing.poses import ROOT, ROTATIONS, MotionOrPoses, Poses, WorldAxes, motion_of, poses_of
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
 
 SAMPLED = 20  # frames of a clip, at least, from which mean distances are taken
+SHOWN = 2000  # frames of a clip, at least, that show its hinges
 
 
 class Body(NamedTuple):
@@ -91,29 +92,30 @@ def body_of(motion: MotionOrPoses, pins: Pins, *, prices: Mapping[str, float] | 
 
     Notebook: 14-levels
     """
-    poses = poses_of(motion)
-    return body_rotating(poses, pins.movers(poses.motion.skeleton), prices)
+    skeleton = motion_of(motion).skeleton
+    return body_rotating(motion, pins.movers(skeleton), prices)
 
 
 def body_rotating(
-    poses: Poses, movers: Iterable[Iterable[int]], prices: Mapping[str, float] | None = None
+    motion: MotionOrPoses, movers: Iterable[Iterable[int]], prices: Mapping[str, float] | None = None
 ) -> Body:
     """Price the joints that may rotate, as `body_of` does.
 
     Parameters
     ----------
-    poses : of the clip that shows which joints rotate, and which of them are hinges.
+    motion : the clip that shows which joints rotate, and which of them are hinges.
     movers : the joints that may rotate for each constraint, as from `Pins.movers`.
     prices : as for `body_of`.
     """
-    clip = poses.motion
+    clip = motion_of(motion)
     skeleton = clip.skeleton
     factors = {skeleton.index(name): factor for name, factor in (prices or {}).items()}
     if not all(np.isfinite(factor) and factor > 0 for factor in factors.values()):
         raise MocapError(f"Factors of prices are above 0, got {dict(prices or {})}.")
     rotates = rotating_joints(clip)
     paths = [skeleton.path_to_root(joint) for joint in range(len(skeleton))]
-    positions = poses.positions[:: max(1, len(poses) // SAMPLED)]
+    positions = poses_of(motion[:: max(1, len(clip) // SAMPLED)]).positions
+    shown = clip[:: max(1, len(clip) // SHOWN)]
     joints: list[int] = []
     axes = [np.zeros((0, 3))]
     price = [float(len(skeleton))] * 3  # of the root's three coordinates
@@ -121,14 +123,14 @@ def body_rotating(
     for joint in movable:
         below = [descendant for descendant, path in enumerate(paths) if joint in path]
         moved = ((positions[:, below] - positions[:, [joint]]) ** 2).sum(axis=(1, 2)).mean()
-        hinge = hinge_of(clip, joint) if joint else None  # a root that only turns on a circle can also tip
+        hinge = hinge_of(shown, joint) if joint else None  # a root that only turns on a circle can also tip
         axes.append(np.eye(3) if hinge is None else hinge[None])
         joints += [joint] * len(axes[-1])
         price += [factors.get(joint, 1.0) * (moved + TUNED.effort)] * len(axes[-1])
     return Body(np.array(joints, int), np.vstack(axes), np.array(price))
 
 
-def priced(poses: Poses, movers: Iterable[Iterable[int]], trunk: float, neck: float) -> Body:
+def priced(motion: MotionOrPoses, movers: Iterable[Iterable[int]], trunk: float, neck: float) -> Body:
     """Choose the joints that may rotate, with factors on the prices of the root, the trunk and the neck.
 
     The trunk is the joints that have a third of the body below them. The neck is the joints from there to the
@@ -136,7 +138,7 @@ def priced(poses: Poses, movers: Iterable[Iterable[int]], trunk: float, neck: fl
 
     Parameters
     ----------
-    poses, movers : as for `body_rotating`.
+    motion, movers : as for `body_rotating`.
     trunk : factor for the joints of the trunk, and for translations of the root.
     neck : factor for the joints of the neck.
 
@@ -150,14 +152,14 @@ def priced(poses: Poses, movers: Iterable[Iterable[int]], trunk: float, neck: fl
     >>> (stiff.price / body_of(walk, head).price).tolist()[::3]  # metres, then joints
     [4.0, 4.0, 4.0, 4.0, 4.0, 8.0, 8.0]
     """
-    skeleton = poses.motion.skeleton
+    skeleton = motion_of(motion).skeleton
     paths = [skeleton.path_to_root(joint) for joint in range(len(skeleton))]
     joints_below = np.bincount(np.concatenate(paths))
     head_paths = [path for path in paths if skeleton.names[path[0]].lower().endswith("head")]
     is_above_head = np.isin(range(len(paths)), [joint for path in head_paths for joint in path])
     is_trunk = joints_below > len(skeleton) / 3
     factors = np.where(is_trunk, trunk, np.where(is_above_head, neck, 1)).tolist()
-    body = body_rotating(poses, movers, dict(zip(skeleton.names, factors, strict=True)))
+    body = body_rotating(motion, movers, dict(zip(skeleton.names, factors, strict=True)))
     price = body.price.copy()
     price[ROOT] *= trunk
     return body._replace(price=price)

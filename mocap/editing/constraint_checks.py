@@ -8,7 +8,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
 from mocap.editing.constraints import Pins
-from mocap.editing.poses import MotionOrPoses, Poses, poses_of
+from mocap.editing.poses import MotionOrPoses, motion_of, poses_of
 from mocap.errors import MocapError, warn
 
 TOLERANCE = 0.005  # metres: constraints with a smaller error cause no warning
@@ -36,7 +36,7 @@ def pin_errors(motion: MotionOrPoses, pins: Pins) -> Array:
 
     Notebook: 12-path-editing
     """
-    require_pins_of(motion.motion if isinstance(motion, Poses) else motion, pins)
+    require_pins_of(motion_of(motion), pins)
     return pins.errors(poses_of(motion))
 
 

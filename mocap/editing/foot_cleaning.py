@@ -6,10 +6,9 @@ from mocap._shared.arrays import Array
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.editing.constraints import Pins
-from mocap.editing.edits import section_of, solved_section
+from mocap.editing.edits import solved_section
 from mocap.editing.pins import join_pins, plant_pins
 from mocap.editing.poses import poses_of
-from mocap.editing.solver import EVERY_FRAME
 from mocap.editing.standing import floor_for
 from mocap.editing.toes import bend_toes, lowest_allowed
 from mocap.editing.tuned import TUNED
@@ -67,8 +66,7 @@ def raised(motion: Motion, allowed: Array) -> Motion:
         return bent.motion
     rise = _rise_of_plants(plants, motion, under_floor)
     wanted = join_pins(floor, Pins(plants.joints, plants.low + rise, plants.high + rise))
-    every_frame = section_of(EVERY_FRAME, len(poses), motion.fps)
-    return bend_toes(solved_section(poses, wanted, None, every_frame), allowed)
+    return bend_toes(solved_section(poses, poses, wanted), allowed)
 
 
 def _rise_of_plants(plants: Pins, motion: Motion, floor: Array) -> Array:

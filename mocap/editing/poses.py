@@ -96,6 +96,19 @@ def poses_of(motion: MotionOrPoses) -> Poses:
     return Poses(motion, world.positions, world.matrices)
 
 
+def motion_of(motion: MotionOrPoses) -> Motion:
+    """Return the motion of poses; a motion as it is.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[:9]
+    >>> motion_of(walk) is motion_of(poses_of(walk)) is walk
+    True
+    """
+    return motion.motion if isinstance(motion, Poses) else motion
+
+
 def with_frames_of(motion: Motion, source: Motion, chosen: Mask) -> Motion:
     """Replace the chosen frames (F,) by those of the source: poses and contacts, to the last bit."""
     if not chosen.any():

@@ -19,12 +19,13 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap._shared.records import NamedTuple
+from mocap._shared.tasks import one_blas_thread
 from mocap.body.motion import Motion
 from mocap.editing.bodies import Body, body_of
 from mocap.editing.constraint_checks import require_pins_of, require_reachable, warn_of_errors
 from mocap.editing.constraints import Pins
 from mocap.editing.displacements import displaced
-from mocap.editing.poses import ROTATIONS, MotionOrPoses, Poses, poses_of
+from mocap.editing.poses import ROTATIONS, MotionOrPoses, Poses, motion_of, poses_of
 from mocap.editing.stages import Curve, Stage
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
@@ -115,7 +116,7 @@ def solve(  # noqa: PLR0913 (a motion, constraints, how to solve, and two option
 
     Notebook: 13-retargeting
     """
-    motion = base.motion if isinstance(base, Poses) else base
+    motion = motion_of(base)
     require_pins_of(motion, pins)
     require_reachable(motion, pins)
     if not len(stages):
@@ -142,8 +143,9 @@ def solve_stages(
     errors = pins.errors(start)
     no_change = np.zeros((len(start), len(body.price)))
     solved = Solved(start, errors, [float(errors.max(initial=0.0))], no_change)
-    for stage in _with_damping_under_bars(stages, pins):
-        solved = _solve_stage(stage, solved, pins, body, stays)
+    with one_blas_thread():  # more of them wait for each other: the blocks of the bands are small
+        for stage in _with_damping_under_bars(stages, pins):
+            solved = _solve_stage(stage, solved, pins, body, stays)
     return solved._replace(poses=solved.poses.with_frames_of(start, stays))
 
 

@@ -5,12 +5,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from mocap._shared.arrays import Array, runs
+from mocap._shared.arrays import Array, Mask, runs
+from mocap._shared.records import NamedTuple
 from mocap.body.limbs import find_legs
 from mocap.editing.constraint_checks import warn_of_errors
 from mocap.editing.constraints import Pins
-from mocap.editing.poses import Poses
+from mocap.editing.pins import plant_pins
+from mocap.editing.poses import MotionOrPoses, Poses, motion_of, poses_of
 from mocap.editing.toes import SLACK, lowest_allowed
+from mocap.feet.footskate import marks_by_joint, settled_marks
 
 CLOSED = 1e-4  # metres: constraints with a larger error cause a warning, and plants among them are released
 
@@ -28,7 +31,7 @@ def plants_within(plants: Pins, poses: Poses, frames: slice) -> Pins:
     --------
     >>> from mocap.datasets import sample
     >>> from mocap.editing.pins import plant_pins
-    >>> from mocap.editing.poses import poses_of
+    >>> from mocap.editing.poses import motion_of, poses_of
     >>> walk = sample("walk_straight")[:240]
     >>> plants = plant_pins(walk)
     >>> plants_within(plants, poses_of(walk), slice(None)) is plants
@@ -53,12 +56,69 @@ def plants_within(plants: Pins, poses: Poses, frames: slice) -> Pins:
     return Pins(plants.joints, low, high)
 
 
-def allowed_by(pins: Pins, poses: Poses) -> Array:
+class Region(NamedTuple):
+    """Frames of a motion, with all frames of the plants that reach into them.
+
+    Parameters
+    ----------
+    frames : of the motion, a range.
+    poses : of these frames, with settled contacts.
+    plants : of these frames, of both legs.
+    """
+
+    frames: slice
+    poses: Poses
+    plants: Pins
+
+    @property
+    def start(self) -> int:
+        """The first of the frames."""
+        return int(self.frames.start)
+
+
+def region_around(motion: MotionOrPoses, frames: slice) -> Region:
+    """Select frames of a motion, with all frames of the plants that reach into them.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> region_around(sample("walk_straight"), slice(420, 440)).frames
+    slice(405, 459, None)
+    """
+    clip = motion_of(motion)
+    legs = find_legs(clip.skeleton)
+    marks = settled_marks(clip, legs)
+    wider = _with_whole_plants(np.asarray(marks.any(axis=1)), frames)
+    poses = poses_of(motion[wider])
+    contacts = {**poses.motion.contacts, **marks_by_joint(clip, legs, marks[..., wider])}
+    settled = Poses(replace(poses.motion, contacts=contacts), poses.positions, poses.matrices)
+    return Region(wider, settled, plant_pins(settled, legs))
+
+
+def _with_whole_plants(planted: Mask, frames: slice) -> slice:
+    """Extend a range of frames by the plants of L feet (L, F) that reach beyond its ends."""
+    start = frames.start
+    stop = frames.stop
+    for foot in planted:
+        lifted = np.flatnonzero(~foot)
+        if foot[frames.start]:
+            start = min(start, int(lifted[lifted < frames.start].max(initial=-1)) + 1)
+        if foot[frames.stop - 1]:
+            stop = max(stop, int(lifted[lifted >= frames.stop].min(initial=len(foot))))
+    return slice(start, stop)
+
+
+def allowed_by(pins: Pins, poses: Poses, lowest: Array) -> Array:
     """Compute the lowest height allowed for each joint, (F, J), metres, as `lowest_allowed` does.
 
     If constraints require that a joint be lower, all of its limb may be as low as necessary.
+
+    Parameters
+    ----------
+    pins, poses : F frames.
+    lowest : the lowest height of each joint of the feet in the whole motion, as from `lowest_of_feet`.
     """
-    allowed = lowest_allowed(poses)
+    allowed = lowest_allowed(poses, lowest)
     skeleton = poses.motion.skeleton
     for column, joint in enumerate(pins.joints):
         if (pins.high[:, column, 1] < allowed[:, joint] - SLACK).any():
@@ -92,7 +152,7 @@ def mark_met(poses: Poses, joints: Sequence[int], errors: Array, plants: Pins) -
     >>> import warnings
     >>> from mocap.datasets import sample
     >>> from mocap.editing.pins import plant_pins
-    >>> from mocap.editing.poses import poses_of
+    >>> from mocap.editing.poses import motion_of, poses_of
     >>> walk = sample("walk_straight")[:240]
     >>> plants = plant_pins(walk)
     >>> with warnings.catch_warnings(action="ignore"):

@@ -13,12 +13,12 @@ from scipy.ndimage import convolve1d, maximum_filter1d
 
 from mocap._shared.arrays import Array
 from mocap.body import rotations
-from mocap.body.kinematics import hinge_of, joint_positions
+from mocap.body.kinematics import hinge_of, joint_positions, positions_of
 from mocap.body.legs import Leg
 from mocap.body.limbs import find_legs, with_roles
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.editing.poses import MotionOrPoses, Poses, poses_of
+from mocap.editing.poses import MotionOrPoses, Poses, motion_of, poses_of
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
 
@@ -46,6 +46,24 @@ def lowest_heights(clips: Sequence[Motion]) -> Array:
     return np.asarray(np.min([joint_positions(clip)[..., 1].min(axis=0) for clip in clips], axis=0))
 
 
+def lowest_of_feet(motion: MotionOrPoses) -> Array:
+    """Compute the lowest height of each joint of the feet in a motion, (J,), metres; -∞ for other joints.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")
+    >>> [round(float(lowest_of_feet(walk)[walk.skeleton.index(name)]), 3) for name in ("ltoes_end", "head")]
+    [0.017, -inf]
+    """
+    clip = motion_of(motion)
+    feet = _joints_of_feet(clip)
+    lowest = np.full(len(clip.skeleton), -np.inf)
+    positions = motion.positions[:, feet] if isinstance(motion, Poses) else positions_of(motion, feet)
+    lowest[feet] = positions[..., 1].min(axis=0)
+    return lowest
+
+
 def lowest_allowed(motion: MotionOrPoses, lowest: Array | None = None) -> Array:
     """Compute the lowest height of each joint that is allowed after an edit, (F, J), metres.
 
@@ -70,9 +88,7 @@ def lowest_allowed(motion: MotionOrPoses, lowest: Array | None = None) -> Array:
     heights = poses.positions[..., 1]
     lowest = heights.min(axis=0) if lowest is None else lowest
     allowed = np.minimum(heights, 0.0)
-    skeleton = poses.motion.skeleton
-    ankles = [leg.ankle for leg in _legs(poses.motion)]
-    feet = [joint for joint in range(len(skeleton)) if {*ankles} & {*skeleton.path_to_root(joint)}]
+    feet = _joints_of_feet(poses.motion)
     allowed[:, feet] = np.maximum(lowest[feet], allowed[:, feet])
     return allowed
 
@@ -115,6 +131,13 @@ def bend_toes(motion: MotionOrPoses, allowed: Array) -> Motion:
     if np.array_equal(local, source.rotations):
         return source
     return replace(source, rotations=local)
+
+
+def _joints_of_feet(motion: Motion) -> list[int]:
+    """List the ankles and the joints below them."""
+    skeleton = motion.skeleton
+    ankles = {leg.ankle for leg in _legs(motion)}
+    return [joint for joint in range(len(skeleton)) if ankles & {*skeleton.path_to_root(joint)}]
 
 
 def _legs(motion: Motion) -> tuple[Leg, ...]:

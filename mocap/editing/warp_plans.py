@@ -220,7 +220,7 @@ def _warp_poses(motion: Motion, plan: WarpPlan, window: float, feet: bool) -> Mo
         return motion
     warped = displaced(motion, offsets(motion, keys_around(motion, keys, window)))
     if feet:
-        return brought(poses_of(warped), poses, join_pins(*pins), frames=frames)
+        return brought(warped, poses, join_pins(*pins), frames=frames)
     is_outside = np.ones(len(motion), bool)
     is_outside[frames] = False
     return with_frames_of(warped, motion, is_outside)
