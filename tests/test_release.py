@@ -187,8 +187,7 @@ def test_the_archives_hold_what_they_should_and_nothing_else(archives):
     assert {name.removeprefix("mocap/") for name in held if name.endswith(".ipynb")} == {
         name for name in source if name.endswith(".ipynb")
     }
-    of_checks = "mocap/course/checks/answers/"
-    of_exam = [name for name in held | source if "answers" in name and of_checks not in name]
+    of_exam = [name for name in held | source if "teaching/answers" in name or name.endswith(".key")]
     assert not of_exam and not any(name.startswith(("tests", "figures")) for name in held)
     typed = {str(path.relative_to(ROOT)) for path in (ROOT / "mocap").rglob("__init__.pyi")}
     assert typed | {"mocap/py.typed"} <= source & held
