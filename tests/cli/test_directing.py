@@ -5,6 +5,8 @@ import csv
 import numpy as np
 import pytest
 
+from mocap.cli import crowd
+from mocap.cli.options import Sources
 from mocap.files import load_save
 from mocap.graphs import storage
 from tests.bundled import bundled
@@ -88,3 +90,16 @@ def test_the_size_of_a_line_with_a_stand_is_that_of_the_option(walks, run):
     run("walk walks.npz --path line.csv --unit 0.5 --end stand -o w.bvh")
     motion = load_save.load(walks / "w.bvh")
     assert np.hypot(*(motion.root_positions[-1, [0, 2]] - (0, 3))) < 0.1
+
+
+def test_clips_that_have_moved_are_found_by_each_command_that_reads_a_graph(clips, run):
+    run("graph a.bvh b.bvh --threshold 5 --fps 20 -o g.npz")
+    (clips / "moved").mkdir()
+    for name in ("a", "b"):
+        (clips / f"{name}.bvh").rename(clips / "moved" / f"take {name}.bvh")
+    stored = "page g.npz -o p.html"
+    assert "'a' is no longer where g.npz found it: give --clips" in run(stored, 2).err
+    run(f"{stored} --clips moved")
+    run("inbetween 'moved/take a.bvh' --gap 10-50 --graph g.npz --clips moved -o i.bvh")
+    run("walk g.npz --random 2s --clips moved -o w.bvh")
+    assert crowd._walks(clips / "g.npz", Sources(), [clips / "moved"]).count("transition")
