@@ -166,6 +166,9 @@ class _Writing:
         print_rows(walked=directed.report())
         for number_of_point, arrival in enumerate(directed.arrivals, 1):
             print_rows(**{f"point {number_of_point}": describe(arrival)})
+        for end, angle in directed.rotated:
+            turn = f"{abs(math.degrees(angle)):.0f}° about the root where it {end}"
+            print_rows(rotated=f"{turn}, without steps of its own")
         with timed_stage("making the motion"):
             motion = directed.motion(clean=True if self.clean else None)
         write_out(motion, self.out)
