@@ -9,23 +9,24 @@ Reading order
 5. `stages`: progress bars and durations
 6. `outputs`: printed results, and files to write, which are checked before any work
 7. `options`: groups of options by which commands read clips, paths and graphs
-8. `clusters`: the workers of a Dask cluster
-9. `graph`: `mocap demo` and `mocap graph`, which build, save and describe motion graphs
-10. `directing`: options of `mocap walk` that direct a walk, and the table of a walk
-11. `walk`: `mocap walk`, a walk along a path, as a direction says, or at random
-12. `page`: `mocap page`, a web page on which a figure walks
-13. `crowd`: `mocap crowd`, groups that walk
-14. `clip_reports`: the numbers of clips, for `mocap info --json`
-15. `clips`: `mocap info`, `view`, `judge`, `convert` and `find`
-16. `labels`: `mocap label`, which proposes labels for clips
-17. `data`: `mocap data`, which lists and downloads clips of other labs
-18. `edits`: `mocap warp`, `bend`, `loop`, `blend` and `retarget`
-19. `cutting`: `mocap cut`, which cuts, resamples, mirrors and repeats clips
-20. `in_betweens`: `mocap inbetween`, which fills the time between two clips
-21. `course`: `mocap course`, which hands out, marks, publishes and runs the notebooks, and `mocap lab`
-22. `help_pages`: help in plain text
-23. `refusals`: errors for invalid commands, options and values, with suggestions
-24. `streams`: output streams that are closed, full, or abandoned by their reader
-25. `main`: all commands under one name, with `mocap completion` and the exit status
-26. `tuned`: the constants that trials chose
+8. `saved_graphs`: saved graphs with their clips, also if these have moved
+9. `clusters`: the workers of a Dask cluster
+10. `graph`: `mocap demo` and `mocap graph`, which build, save and describe motion graphs
+11. `directing`: options of `mocap walk` that direct a walk, and the table of a walk
+12. `walk`: `mocap walk`, a walk along a path, as a direction says, or at random
+13. `page`: `mocap page`, a web page on which a figure walks
+14. `crowd`: `mocap crowd`, groups that walk
+15. `clip_reports`: the numbers of clips, for `mocap info --json`
+16. `clips`: `mocap info`, `view`, `judge`, `convert` and `find`
+17. `labels`: `mocap label`, which proposes labels for clips
+18. `data`: `mocap data`, which lists and downloads clips of other labs
+19. `edits`: `mocap warp`, `bend`, `loop`, `blend` and `retarget`
+20. `cutting`: `mocap cut`, which cuts, resamples, mirrors and repeats clips
+21. `in_betweens`: `mocap inbetween`, which fills the time between two clips
+22. `course`: `mocap course`, which hands out, marks, publishes and runs the notebooks, and `mocap lab`
+23. `help_pages`: help in plain text
+24. `refusals`: errors for invalid commands, options and values, with suggestions
+25. `streams`: output streams that are closed, full, or abandoned by their reader
+26. `main`: all commands under one name, with `mocap completion` and the exit status
+27. `tuned`: the constants that trials chose
 """

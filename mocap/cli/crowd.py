@@ -8,10 +8,10 @@ from typing import Annotated, Any, Literal
 
 from mocap import body, datasets, files, graphs, plotting, widgets
 from mocap._shared.atomic import make_folder, replacing, require_folder
-from mocap.cli import options
 from mocap.cli.option_types import Joints, Seed, Skeleton, number
-from mocap.cli.options import Building
+from mocap.cli.options import Building, Sources
 from mocap.cli.outputs import print_rows
+from mocap.cli.saved_graphs import MovedClips, load_graph
 from mocap.cli.stages import bar
 from mocap.cli.tuned import TUNED
 from mocap.errors import MocapError, NoWalk
@@ -27,6 +27,7 @@ def crowd(
     around: Path | None = None,  # reads: name: the option's name
     out: Path,
     graph: Path | None = None,
+    clips: MovedClips = (),
     skeleton: Skeleton = None,
     joints: Joints = (),
     to: Literal["bvh", "glb"] = "bvh",
@@ -62,7 +63,7 @@ def crowd(
     obstacles = tuple((complex(z, x), float(radius)) for x, z, radius in discs)
     scene = groups.Scene(points, obstacles)
     scene.check(0j)
-    walks = _walks(graph, skeleton, joints)
+    walks = _walks(graph, Sources(skeleton, joints=joints), clips)
     group = groups.build_group(members, seed=seed)
     plan, search = _plan(group, scene)
     effort = f"{search.expanded} states" if search else "steered, which is quicker"
@@ -81,14 +82,15 @@ def crowd(
     print_rows(wrote=out)
 
 
-def _walks(path: Path | None, skeleton: Path | None, joints: Sequence[Path]) -> "graphs.MotionGraph":
+def _walks(path: Path | None, sources: Sources, clips: Sequence[Path]) -> "graphs.MotionGraph":
     """Load the requested graph, or build one of generated walks."""
-    if path is None and (skeleton or joints):
-        option = "--skeleton" if skeleton else "--joints"
+    values = {"--skeleton": sources.skeleton, "--joints": sources.joints, "--clips": clips}
+    if path is None and any(values.values()):
+        option = next(name for name, value in values.items() if value)
         raise MocapError(f"{option} belongs to --graph: the generated walks have a skeleton of their own.")
     if path is None:
         return graphs.prune(Building().build([datasets.sample(name) for name in WALKS]))
-    graph = options.load_graph(path, skeleton, joints)
+    graph = load_graph(path, sources, clips)
     if not graph.count("transition"):
         raise NoWalk(f"{path} has no transition: no character can walk where it should.")
     return graph

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Annotated
 
 from mocap import body, graphs
 from mocap.cli.option_types import MOMENT, frame_at, number
-from mocap.cli.options import Building, load_graph
-from mocap.cli.outputs import check_out, print_rows, require_other, write_out
+from mocap.cli.options import Building, Sources
+from mocap.cli.outputs import check_out, print_rows, write_out
+from mocap.cli.saved_graphs import load_graph
 from mocap.errors import MocapError
 from mocap.files.conversion import find_files
 from mocap.methods import in_betweening
@@ -49,8 +50,9 @@ def inbetween(
     gap (FROM-TO) : the part of START to replace, in seconds as in 1.5s-2.5s, or in frames as in 45-75. The
         poses at both ends are kept.
     ahead (METRES) : place END this far ahead of START, with the same heading (default: at its own position).
-    graph : an .npz file from `mocap graph` as the source of motion. Its clips must not have been moved.
-    clips (CLIP) : motion files, or folders of them, as the source of motion (default: START and END).
+    graph : an .npz file from `mocap graph` as the source of motion.
+    clips (CLIP) : motion files, or folders of them, as the source of motion (default: START and END). With
+        --graph, they are the clips of the graph, which are found by content if they have moved.
     alone : write only the new motion, without START and END.
     out : file to write, .bvh, .glb, .npz or .csv.
 
@@ -66,19 +68,19 @@ def inbetween(
         raise MocapError("--seconds belongs to END: the time between two clips. A --gap has its own.")
     if ahead is not None and end is None:
         raise MocapError("--ahead belongs to END: a gap ends where START goes on.")
-    if graph and clips:
-        raise MocapError("--graph and --clips both say where to take motion from: give one of them.")
     files = [start, end] if end else [start]
-    sources = find_files(clips) if clips else []
+    of_source = () if graph else clips
+    sources = find_files(of_source) if of_source else []
     check_out("whole motion", out, [*files, *sources, *([graph] if graph else [])])
-    motions, _ = building.load([*files, *sources], [*files, *clips])
+    motions, _ = building.load([*files, *sources], [*files, *of_source])
     first, second, time = _sides(motions[: len(files)], gap, seconds, ahead)
     frames = max(1, round(time * first.fps))
     if time < in_betweening.SHORTEST:
         between = in_betweening.interpolate(first, second, frames)
         print_rows(between=f"{time:.2f} s, interpolated")
     else:
-        whole_graph = _graph(graph, motions[len(files) :], building, [first, second], out)
+        saved = _saved(graph, clips, building, out)
+        whole_graph = saved or _built(motions[len(files) :], building, [first, second])
         filling = in_betweening.fill_gap(graphs.compile_graph(whole_graph), first, second, time)
         between = _at_rate(filling.motion, first.fps, frames)
         print_rows(between=f"{time:.2f} s, {_changes(filling.arrived)}")
@@ -123,22 +125,24 @@ def _frames(gap: str, clip: "Motion") -> tuple[int, int]:
     return begin, stop
 
 
-def _graph(
-    path: Path | None, clips: "Sequence[Motion]", building: Building, sides: "Sequence[Motion]", out: Path
-) -> "MotionGraph":
-    """Load the graph that is the source of motion, or build one of some clips and both sides."""
-    if path is None:
-        long = [side for side in sides if side.duration >= building.window]  # others have no transition
-        motions = [*clips, *long]
-        if not motions:
-            window = f"a transition of {building.window:.2f} s"
-            raise MocapError(f"START and END are shorter than {window}: give --clips to take motion from.")
-        # Both sides of a gap have the same name, and a clip may also have it.
-        return building.build([replace(clip, name=f"{n} {clip.name}") for n, clip in enumerate(motions)])
-    from mocap.graphs.storage import find_origins  # the help needs no NumPy
+def _saved(graph: Path | None, clips: Sequence[Path], building: Building, out: Path) -> "MotionGraph | None":
+    """Load the graph that is the source of motion; None without one."""
+    if graph is None:
+        return None
+    # Without clips, the options for reading are those of START and END.
+    sources = building if clips else Sources(building.skeleton, joints=building.joints)
+    return load_graph(graph, sources, clips, out)
 
-    require_other(out, [origin.path for origin in find_origins(path)])
-    return load_graph(path, building.skeleton, building.joints)
+
+def _built(clips: "Sequence[Motion]", building: Building, sides: "Sequence[Motion]") -> "MotionGraph":
+    """Build the graph that is the source of motion, of some clips and both sides."""
+    long = [side for side in sides if side.duration >= building.window]  # others have no transition
+    motions = [*clips, *long]
+    if not motions:
+        window = f"a transition of {building.window:.2f} s"
+        raise MocapError(f"START and END are shorter than {window}: give --clips to take motion from.")
+    # Both sides of a gap have the same name, and a clip may also have it.
+    return building.build([replace(clip, name=f"{n} {clip.name}") for n, clip in enumerate(motions)])
 
 
 def _at_rate(motion: "Motion", fps: float, frames: int) -> "Motion":

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from mocap.graphs.motion_graph import MotionGraph
 
 SHORTEST_LINE = 0.5  # metres: a shorter path is doubted
-BUILD_FIRST = "build a graph of it first, by mocap graph {}"
 
 # The options for the parameters of `files.load_path`.
 PATH_READING = {"id": "--id", "length": "--length"}
@@ -354,16 +353,3 @@ class Building(Sources):
         return graphs.build(
             clips, window=frames, threshold=threshold, progress=progress, executor=executor, jobs=jobs
         )
-
-
-def load_graph(path: Path, skeleton: Path | None = None, joints: Sequence[Path] = ()) -> "MotionGraph":
-    """Read a graph and its clips, with a bar; `joints` are files of roles that replace those of the graph."""
-    return with_joints(graphs.load(path, skeleton=skeleton, progress=bar("reading")), joints)
-
-
-def with_joints(motion_graph: "MotionGraph", joints: Sequence[Path]) -> "MotionGraph":
-    """Return a graph whose clips have the roles of files, instead of those that the graph stores."""
-    if not joints:
-        return motion_graph
-    clips = tuple(with_chosen_roles(clip, joints) for clip in motion_graph.clips)
-    return replace(motion_graph, clips=clips)

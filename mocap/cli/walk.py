@@ -2,23 +2,22 @@
 
 import math
 import re
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
-from mocap import editing, graphs, steering
+from mocap import graphs, steering
 from mocap._shared.deadlines import OUT_OF_TIME
 from mocap.cli import options
 from mocap.cli.directing import Directing, describe, node_of, write_contents, write_seams
 from mocap.cli.option_types import TURN, Clean, number
 from mocap.cli.options import PathReading, Sources
-from mocap.cli.outputs import check_out, print_rows, require_other, write_out
+from mocap.cli.outputs import check_out, print_rows, write_out
+from mocap.cli.saved_graphs import BUILD_FIRST, MovedClips, load_graph
 from mocap.cli.stages import bar, timed_stage
 from mocap.cli.typed_commands import ONE_EACH, OptionalValue
-from mocap.errors import MocapError, MocapWarning
-from mocap.files.conversion import find_files
+from mocap.errors import MocapError
 
 if TYPE_CHECKING:
     from mocap.body.ground_path import GroundPath
@@ -39,7 +38,7 @@ def walk(
     path: Path | None = None,
     random: str | None = None,
     out: Path = Path("walk.bvh"),
-    clips: Sequence[Path] = (),
+    clips: MovedClips = (),
     sources: Sources,
     drawn: PathReading,
     directing: Directing,
@@ -64,7 +63,6 @@ def walk(
     path : the path, .csv with points x, z in metres, or .svg, or a direction, .csv or .toml.
     random (TIME) : duration of a random walk, such as 60s, 10min or 1h.
     out : file to write, .bvh, .glb, .npz or .csv.
-    clips : the clips of the graph (default: those from which it was built, at their stored locations).
     scale : metres per unit of length in the .bvh clips of --clips.
     label (METRES:LABEL) : kind of motion from this distance along the path, as in 6.5:sneak. This option may
         be repeated.
@@ -89,13 +87,13 @@ def walk(
 
     seconds = _seconds(random or "1s")
     longest_search = math.inf if deadline is None else _seconds(deadline)
-    options.require_file(graph, options.BUILD_FIRST.format(graph))
+    options.require_file(graph, BUILD_FIRST.format(graph))
     direction = directing.direction(path, drawn) if path else None
     _require_line(direction, label, bend)
     line = drawn.load(path) if path and direction is None else None
     request = steering.PathRequest(labels=[_label(text) for text in label])
     with timed_stage("reading the graph"):
-        motions = _graph(graph, clips, sources, out)
+        motions = load_graph(graph, sources, clips, out)
     writing = _Writing(out, licences_in(graph), clean)
     search = steering.Settings(width=width, progress=bar("searching"), deadline=longest_search)
     if direction is not None:
@@ -168,6 +166,9 @@ class _Writing:
         print_rows(walked=directed.report())
         for number_of_point, arrival in enumerate(directed.arrivals, 1):
             print_rows(**{f"point {number_of_point}": describe(arrival)})
+        for end, angle in directed.rotated:
+            turn = f"{abs(math.degrees(angle)):.0f}° about the root where it {end}"
+            print_rows(rotated=f"{turn}, without steps of its own")
         with timed_stage("making the motion"):
             motion = directed.motion(clean=True if self.clean else None)
         write_out(motion, self.out)
@@ -258,27 +259,3 @@ def _label(text: str) -> tuple[float, str]:
         return float(metres), label
     except ValueError:
         raise MocapError(f"From where on is '{text[:40]}'? Write METRES:LABEL, as in 6.5:sneak.") from None
-
-
-def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "graphs.MotionGraph":
-    """Load a graph with its clips, from the given files or from the locations stored in the graph."""
-    from mocap.editing.mirroring import mirrored_name  # the help needs no NumPy
-    from mocap.graphs.storage import find_origins, read
-
-    reading = {"--scale": sources.scale, "--up": sources.up, "--root-offset": sources.root_offset}
-    options_given = [option for option, value in reading.items() if value is not None]
-    if options_given and not clips:
-        raise MocapError(
-            f"{options_given[0]} belongs to --clips: the graph remembers how its own clips are read."
-        )
-    content = read(path)
-    files_read = find_files(clips) if clips else [origin.path for origin in find_origins(path)]
-    require_other(out, files_read)
-    with warnings.catch_warnings():
-        lopsided = ".* so its mirror image does not"  # `mocap graph` has already warned
-        warnings.filterwarnings("ignore", lopsided, MocapWarning)
-        if not clips:
-            return options.load_graph(path, sources.skeleton, sources.joints)
-        motions, _ = sources.load(files_read, clips)
-        motions += [editing.mirror(clip) for clip in motions if mirrored_name(clip.name) in content.names]
-    return options.with_joints(graphs.load(path, motions), sources.joints)

@@ -138,6 +138,18 @@ class Directed:
                 speeds.append(float(np.abs(np.diff(turn)).max() * self.raw.fps))
         return max(speeds)
 
+    @property
+    def rotated(self) -> list[tuple[str, float]]:
+        """The rotations of the body where it "starts" or "stops", which no steps make, in radians.
+
+        They are those of headings of more than 30° to the line, because clips mostly start and stop straight
+        ahead.
+        """
+        ends: list[tuple[str, float]] = []
+        for piece in self.pieces:
+            ends += zip(("starts", "stops"), piece.rotations, strict=True)
+        return [(end, angle) for end, angle in ends if angle]
+
     def motion(self, *, name: str = "walk", clean: bool | None = None) -> Motion:
         """Return the motion, without foot sliding if `clean` (default: if its steps were corrected)."""
         fitted = replace(self.fitted, name=name)

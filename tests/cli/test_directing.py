@@ -5,6 +5,8 @@ import csv
 import numpy as np
 import pytest
 
+from mocap.cli import crowd
+from mocap.cli.options import Sources
 from mocap.files import load_save
 from mocap.graphs import storage
 from tests.bundled import bundled
@@ -69,6 +71,7 @@ def test_a_direction_in_a_table_is_followed_and_each_point_told(walks, run):
     motion = load_save.load(walks / "w.bvh")
     assert np.hypot(*(motion.root_positions[-1, [0, 2]] - (2, 6))) < 0.1
     assert (walks / "w.edges.csv").exists()
+    assert "rotated      90° about the root where it stops, without steps of its own" in told
 
 
 def test_a_seam_of_a_direction_is_refused_and_its_seams_are_shown(walks, run):
@@ -88,3 +91,18 @@ def test_the_size_of_a_line_with_a_stand_is_that_of_the_option(walks, run):
     run("walk walks.npz --path line.csv --unit 0.5 --end stand -o w.bvh")
     motion = load_save.load(walks / "w.bvh")
     assert np.hypot(*(motion.root_positions[-1, [0, 2]] - (0, 3))) < 0.1
+
+
+def test_clips_that_have_moved_are_found_by_each_command_that_reads_a_graph(clips, run):
+    run("graph a.bvh b.bvh --threshold 5 --fps 20 -o g.npz")
+    (clips / "moved").mkdir()
+    for name in ("a", "b"):
+        (clips / f"{name}.bvh").rename(clips / "moved" / f"take {name}.bvh")
+    stored = "page g.npz -o p.html"
+    assert "'a' is no longer where g.npz found it: give --clips" in run(stored, 2).err
+    run(f"{stored} --clips moved")
+    filled = "inbetween 'moved/take a.bvh' --gap 10-50 --graph g.npz -o i.bvh"
+    assert "no longer where g.npz found it" in run(filled, 2).err
+    assert "No legs found" in run(f"{filled} --clips moved", 2).err  # the graph is read; this body has none
+    run("walk g.npz --random 2s --clips moved -o w.bvh")
+    assert crowd._walks(clips / "g.npz", Sources(), [clips / "moved"]).count("transition")
