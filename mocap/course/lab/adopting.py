@@ -151,13 +151,14 @@ def compare(draw: Callable[[Tools], Any], *names: str) -> dict[str, Any]:
     places = slots(*names)
     begun = [slot for slot in places if slot.written is not slot.stand_in and not is_stub(slot.written)]
     results: dict[str, Any] = {}
-    if any(slot.adopted is not slot.written for slot in begun):
+    failing = [slot.name for slot in begun if slot.adopted is not slot.written]
+    if failing:
         theirs = {slot.name: AsWritten(slot) if slot in begun else slot for slot in places}
         try:
             results[FAILING] = draw(Tools(**theirs))
         except Exception as error:  # whatever functions that do not pass lead to
             problem = f"{type(error).__name__}: {error}"
-            print(f"As you wrote {', '.join(names)}, this fails. {problem}"[:200])
+            print(f"As you wrote {', '.join(failing)}, this fails. {problem}"[:200])
         results[PACKAGE] = draw(Tools(**{slot.name: slot.stand_in for slot in places}))
     else:
         label = YOURS if all(slot.yours for slot in places) else PACKAGE

@@ -168,6 +168,8 @@ def cut_and_join(clips: Sequence[Motion], transitions: Transitions) -> nx.MultiD
     graph.add_nodes_from(sorted(following))
     for clip, frames in enumerate(points):
         for start, end in pairwise(frames):
+            if end <= start:  # a walk on a piece without frames would never end
+                raise ValueError(f"Clip {clip}: {end} follows {start}. List each node once, in order.")
             fields = {"kind": "clip", "frames": end - start, "cost": 0.0, "transform": (1, 0)}
             graph.add_edge((clip, start), (clip, end), **fields)
     for a, i, b, j, cost, transform in transitions:

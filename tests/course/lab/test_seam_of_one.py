@@ -44,6 +44,10 @@ def test_each_seam_is_an_edge_of_the_graph_and_pruning_keeps_it():
 
 
 WRONG = "def hamilton(a, b):\n    return np.array([a[0] * b[0], *(a[0] * b[1:] + b[0] * a[1:])])\n"
+TWICE = """
+def choice_points(frames, leaves, enters, window):
+    return sorted([0, 0, frames, *leaves, *(start + window for start in enters)])
+"""
 
 
 def test_what_does_not_pass_is_made_beside_the_packages(capsys):
@@ -59,6 +63,8 @@ def test_what_does_not_pass_is_made_beside_the_packages(capsys):
     alone = lab.compare(lambda by: made(by).index(1.0), "hamilton")
     assert alone == {"the package's": 3}
     assert "As you wrote hamilton, this fails. ValueError: " in capsys.readouterr().out
+    lab.compare(lambda by: made(by).index(1.0), *lab.own.NAMES)
+    assert "As you wrote hamilton, this fails. ValueError: " in capsys.readouterr().out
     lab.mine(written("hamilton"))
     assert list(lab.compare(made, "hamilton")) == ["yours"]
 
@@ -71,3 +77,15 @@ def test_a_wrong_product_changes_the_walk_of_the_whole_program():
     lab.mine(written("hamilton", WRONG))
     wrong, _ = lab.own.OwnGraph(clips, 10, 0.05, lab.own.as_written()).walk(line)
     assert _differs(right, wrong)
+
+
+def test_choice_points_that_are_listed_twice_end_no_walk_in_a_loop(capsys):
+    """A piece of clip without frames would be walked on for ever."""
+    seam = lab.pair()
+    clips = [seam.a[:200], seam.b[:200]]
+    lab.mine(written("choice_points", TWICE))
+    found = lab.compare(lambda by: lab.own.OwnGraph(clips, 10, 0.05, by), *lab.own.NAMES)
+    assert list(found) == ["the package's"]
+    assert (
+        "As you wrote choice_points, this fails. ValueError: Clip 0: 0 follows 0." in capsys.readouterr().out
+    )
