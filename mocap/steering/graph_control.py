@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Points
-from mocap._shared.ties import in_order
+from mocap._shared.ties import first_in_order
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
@@ -71,9 +71,12 @@ class Controller:
         self.graph = compile_graph(graph)
         self.skeleton = self.graph.source.clips[0].skeleton
         self.fps = self.graph.fps
-        self.displacements = _displacements(self.graph)
+        displacements = _displacements(self.graph)
+        self.distances = np.abs(displacements)  # metres, of each macro-edge
+        self.directions = np.angle(displacements)  # in coordinates of the clip that it leaves, radians
         seams = np.where(self.graph.blended, SEAM, 0.0)
-        self.macro_edges = macro_edge_states(self.graph, np.abs(self.displacements), seams)
+        self.macro_edges = macro_edge_states(self.graph, self.distances, seams)
+        self.seconds = self.macro_edges.frames / self.fps
         self.seconds_without = _seconds_without(self.graph)
         # Those of the macro-edge under way that are still to be played; the first one is being played.
         self.edges: list[int] = []
@@ -221,45 +224,75 @@ class Controller:
         self.decided = not len(macro_edge)
         if self.decided:
             return
-        steps = self.macro_edges.take(macro_edge)
-        seconds = steps.frames / self.fps
-        moved = short.rotation[row] * self.displacements[macro_edge]
+        seconds = self.seconds[macro_edge]
+        distance = self.distances[macro_edge]
+        travel = abs(velocity) * seconds
+        missing = self._missing_angles(short.rotation, row, macro_edge)
+        price = self.macro_edges.cost[macro_edge]
+        turn = np.zeros(len(macro_edge))
         if self.rotation_rate:
-            waiting = np.where(short.macro_edge[row] < 0, self.frames_left / self.fps, 0.0)
-            start, end = self._expected_turns(moved, waiting, seconds)
-            moved = moved * np.exp(0.5j * (start + end))
-            effort = self._correction_cost(moved, end, waiting + seconds, seconds)
-            cost = TUNED.turned_seam * steps.cost + effort
-            steps = steps._replace(rotation=np.exp(1j * end) * steps.rotation, cost=cost)
-        error = moved - velocity * seconds
-        cost = (error.real**2 + error.imag**2) / seconds + steps.cost
+            waiting = np.where(short.macro_edge < 0, self.frames_left / self.fps, 0.0)[row]
+            start, turn = self._expected_turns(missing, waiting, seconds)
+            missing = missing - (start + turn) / 2
+            effort = self._correction_cost(distance - travel, turn, waiting + seconds, seconds)
+            price = TUNED.turned_seam * price + effort
+        # |v - v'|² Δt by the law of cosines
+        error = (distance - travel) ** 2 + 2 * distance * travel * (1 - np.cos(missing))
+        price = error / seconds + price
         if label >= 0:
-            cost += LABEL * self.seconds_without[label, macro_edge]
-        longer = short.then(row, steps._replace(cost=cost))
-        first_macro_edge = np.where(short.macro_edge[row] < 0, macro_edge, short.macro_edge[row])
-        walks = States.join([self.walks.take(~is_short), longer._replace(macro_edge=first_macro_edge)])
-        self.walks = walks.take(in_order(walks.cost / walks.frames, EQUAL)[:WIDTH])
+            price += LABEL * self.seconds_without[label, macro_edge]
+        # Only the walks that stay are put together.
+        finished = self.walks.take(~is_short)
+        cost = short.cost[row] + price
+        frames = short.frames[row] + self.macro_edges.frames[macro_edge]
+        costs = np.concatenate([finished.cost / finished.frames, cost / frames])
+        chosen = first_in_order(costs, EQUAL, WIDTH)
+        count = len(finished.cost)
+        is_longer = chosen >= count
+        longer = chosen[is_longer] - count
+        rows = row[longer]
+        steps = self.macro_edges.take(macro_edge[longer])
+        rotation = np.exp(1j * turn[longer]) * steps.rotation
+        grown = short.then(rows, steps._replace(rotation=rotation, cost=price[longer]))
+        first = short.macro_edge[rows]
+        grown = grown._replace(macro_edge=np.where(first < 0, macro_edge[longer], first))
+        walks = States.join([finished.take(chosen[~is_longer]), grown])
+        places = np.argsort(is_longer, kind="stable").argsort()  # where each of the chosen walks is now
+        self.walks = walks.take(places)
 
-    def _expected_turns(self, moved: Points, waiting: Array, seconds: Array) -> tuple[Array, Array]:
+    def _missing_angles(self, rotation: Points, row: Indices, macro_edge: Indices) -> Array:
+        """Return the angles from the directions of macro-edges to the command's, in [-π, π); 0 if it stands.
+
+        Parameters
+        ----------
+        rotation : of the walks ahead (N,).
+        row, macro_edge : the walks' numbers, and the macro-edges that continue them.
+        """
+        velocity, _ = self.command
+        if not velocity:
+            return np.zeros(len(row))
+        ahead = cmath.phase(velocity) - np.angle(rotation)
+        missing = ahead[row] - self.directions[macro_edge]
+        return np.asarray((missing + np.pi) % (2 * np.pi) - np.pi)
+
+    def _expected_turns(self, missing: Array, waiting: Array, seconds: Array) -> tuple[Array, Array]:
         """Return the angles by which the figure will have been turned towards the command, radians.
 
         Parameters
         ----------
-        moved : the displacement of each macro-edge, if the figure is not turned.
+        missing : the angle of each macro-edge from the command, if the figure is not turned; radians.
         waiting, seconds : the time until a macro-edge begins, and its duration.
 
         Returns
         -------
         The angles at the start and at the end of each macro-edge.
         """
-        velocity, _ = self.command
-        missing = np.angle(velocity * np.conj(moved)) if velocity else np.zeros(len(moved))
         earlier = self.rotation_rate * waiting
         largest = earlier + self.rotation_rate * seconds
         at_start = np.minimum(np.maximum(missing, -earlier), earlier)
         return at_start, np.minimum(np.maximum(missing, -largest), largest)
 
-    def _correction_cost(self, moved: Points, turn: Array, turning: Array, seconds: Array) -> Array:
+    def _correction_cost(self, lead: Array, turn: Array, turning: Array, seconds: Array) -> Array:
         """Return the cost of macro-edges whose direction and pace must be corrected, m²/s.
 
         A figure that can be turned obeys on any clip. Without this cost it might walk along a clip that turns
@@ -267,13 +300,12 @@ class Controller:
 
         Parameters
         ----------
-        moved : the displacement of each macro-edge, turned.
+        lead : the distance by which each macro-edge is longer than the command asks for, metres.
         turn, turning : the angle by which the figure is turned for it, radians, and the time for that.
         seconds : its duration.
         """
-        velocity, _ = self.command
-        pace = np.abs(moved) - abs(velocity) * seconds
-        return (TUNED.rotation_price * turn) ** 2 / turning + TUNED.pace_price * pace**2 / seconds
+        rotation_cost = (TUNED.rotation_price * turn) ** 2 / turning
+        return np.asarray(rotation_cost + TUNED.pace_price * lead**2 / seconds)
 
     def _choose(self) -> None:
         """Take the first macro-edge of the best walk, and look ahead from its end."""
