@@ -267,8 +267,8 @@ def mark(
 
 
 def _points_in_words(
-    file: Path | None, replaced: Path, answers: Sequence[Answer], worth: marking.grades.Points
-) -> marking.written_points.GivenPoints | None:
+    file: Path | None, replaced: Path, answers: Sequence[Answer], worth: "marking.grades.Points"
+) -> "marking.written_points.GivenPoints | None":
     """Read the points of answers in words, if there is a file, and else refuse to replace a table of them."""
     if file:
         return marking.written_points.read_given_points(file, answers, worth)
@@ -278,11 +278,11 @@ def _points_in_words(
 
 
 def _write_tables(
-    marks: Sequence[marking.grades.Mark],
-    worth: marking.grades.Points,
-    students: marking.rosters.Roster,
+    marks: "Sequence[marking.grades.Mark]",
+    worth: "marking.grades.Points",
+    students: "marking.rosters.Roster",
     out: Path,
-) -> list[marking.grades.Grade]:
+) -> "list[marking.grades.Grade]":
     """Write the tables of the marks so far, and return the grades."""
     grades = marking.grades.grade(marks, worth, students)
     for end, text in marking.grades.tables(marks, grades, worth, out.stem).items():

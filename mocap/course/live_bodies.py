@@ -69,8 +69,8 @@ def turn(degrees: float) -> dict[str, Any]:
 
     Examples
     --------
-    >>> round(turn(degrees=87)["distance"], 1), round(turn(degrees=-93)["distance"], 1)
-    (0, 0)
+    >>> round(turn(degrees=87)["distance"]), round(turn(degrees=-93)["distance"])
+    (2, 47)
     """
     first, second = _windows_to_align()
     p, q = (positions.reshape(-1, 3) for positions in (first, second))
