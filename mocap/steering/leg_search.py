@@ -29,7 +29,7 @@ from mocap.steering.path_search import Found, find_walk
 from mocap.steering.standing import StandingGraph
 from mocap.steering.tuned import TUNED
 
-WIDTHS = (50, 200)  # beam widths: the second if the first search misses what is asked for
+WIDTHS = (60, 200)  # beam widths: the second if the first search misses what is asked for
 TURNED = np.radians(30)  # radians between a line and a heading at its end, beyond which the line is turned
 LESS_LATE = 0.35  # times the price of a delay, if clips are too slow to be in time. At 1 ends are missed
 GOOD_OFF = 0.35  # metres
