@@ -248,7 +248,7 @@ def _is_in_another_order(attempt: Attempt) -> bool:
 
 
 def _parts_missing(attempt: Attempt) -> str:
-    """Say how many parts an answer should have; "" for one of as many, or of no parts."""
+    """Return how many parts an answer should have; "" for one of as many, or of no parts."""
     has_parts = isinstance(attempt.wanted, tuple) and isinstance(attempt.answer, tuple | list)
     if not has_parts:
         return ""
@@ -273,7 +273,7 @@ def _equal_signs(a: Any, b: Any) -> bool:  # noqa: ANN401
 
 
 def _factor(attempts: list[Attempt]) -> str:
-    """Say by which constant factor all answers differ from the right ones, if there is one."""
+    """Return by which constant factor all answers differ from the right ones, if there is one."""
     if len(attempts) < 2:
         return ""
     try:

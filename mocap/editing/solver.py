@@ -227,7 +227,7 @@ def _merged(is_better: Mask, trial: Array, last: Array) -> Array:
 
 
 class _Problem(NamedTuple):
-    """What a stage minimises: F frames, their constraints, and the curves that are allowed."""
+    """The problem that a stage minimises: F frames, their constraints, and the curves that are allowed."""
 
     base: Poses
     pins: Pins

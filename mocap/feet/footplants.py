@@ -140,7 +140,7 @@ def _slower_speeds(positions: Array, span: int, fps: float) -> Array:
 
 
 def _low_enough(heights: Array, speeds: Array, length: float) -> Array:
-    """Give the height up to which each joint may be standing, shape (N,), metres."""
+    """Return the height up to which each joint may be standing, shape (N,), metres."""
     slow = speeds <= np.percentile(speeds, SLOWEST, axis=0)
     standing = np.nanmedian(np.where(slow, heights, np.nan), axis=0)
     swing = np.maximum(np.percentile(heights, TOP, axis=0) - standing, LEAST_LIFT * length)
@@ -175,7 +175,7 @@ def hysteresis(values: Array, allowed: Mask, enter: float, leave: float) -> Mask
 
 
 def least_frames(fps: float) -> int:
-    """Give how many frames a plant, or a gap between two, lasts at least: those of `SPAN`."""
+    """Return the least number of frames of a plant, or of a gap between two: those of `SPAN`."""
     return max(1, round(SPAN * fps))
 
 
@@ -248,7 +248,7 @@ def find_footprints(motion: Motion) -> list[Footprint]:
 
 
 def standing_tracks(motion: Motion) -> Array:
-    """Give where joints are over the ground while they stand, as one line with gaps: a slide is a smear.
+    """Return the positions of joints over the ground while they stand: a slide is a smear.
 
     Parameters
     ----------

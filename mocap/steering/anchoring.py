@@ -43,7 +43,7 @@ class Anchor(NamedTuple):
 
 
 class Correction(NamedTuple):
-    """What is corrected between two anchors: a distance, an angle (radians), and the metres travelled."""
+    """The correction between two anchors: a distance, an angle (radians), and the metres travelled."""
 
     metres: float
     radians: float

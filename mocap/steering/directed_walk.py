@@ -125,7 +125,7 @@ class Directed:
 
     @cached_property
     def corrections(self) -> list[Correction]:
-        """What was corrected in each piece, except for the rotations at its ends."""
+        """The correction in each piece, except for the rotations at its ends."""
         return [corrections(self.raw, [piece.start, piece.end])[0] for piece in self.pieces]
 
     @cached_property

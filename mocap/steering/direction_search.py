@@ -60,7 +60,7 @@ class Prices:
 
 @dataclass(frozen=True, eq=False)
 class Goal:
-    """What a direction asks for on a route, for a graph of N nodes and T frames of edges.
+    """The request of a direction on a route, for a graph of N nodes and T frames of edges.
 
     Parameters
     ----------

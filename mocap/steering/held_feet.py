@@ -201,7 +201,7 @@ class HeldFeet:
         return pose._replace(root_position=root_position, rotations=rotations)
 
     def _follow(self, jointed: JointedLeg, foot: HeldFoot, placed: PlacedLeg, pose: Pose) -> None:
-        """Let a foot take the next frame of its clip."""
+        """Advance a foot to the next frame of its clip."""
         leg = jointed.leg
         ankle = placed.positions[leg.ankle]
         toes = subtract(placed.positions[leg.ball], ankle) if leg.has_ball else jointed.forward(placed)

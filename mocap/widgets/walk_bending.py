@@ -119,7 +119,7 @@ def standing(clip: Motion, limbs: Sequence[Limb]) -> Mask:
 
 
 class Bendable(NamedTuple):
-    """What bending needs of clips: their legs, and for each clip its smooth path and its stances."""
+    """The data of clips that bending needs: their legs, and for each clip its smooth path and its stances."""
 
     limbs: list[Limb]
     paths: list[SmoothPath]

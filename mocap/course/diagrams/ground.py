@@ -83,7 +83,7 @@ BEND = 0.8
 
 
 def two_distances(path: GroundPath, walk: GroundPath) -> Callable[..., list[Any]]:
-    """Give a function that draws a path and a walk from above, and both distances of the walk from the path.
+    """Return a function that draws a path and a walk from above, and both of their distances.
 
     Nine moments are evenly spaced along the walk. At each a thread leads to the path's point at equal arc
     length, as in [KGP02, Eq. 9], and another to the path's nearest point. The curves beside them show both
@@ -159,7 +159,7 @@ def _line(ax: Axes, rows: Array, *form: str, **look: Any) -> tuple[Any, Array]: 
 
 
 def nearest_points(path: GroundPath, points: Array) -> Array:
-    """Give the point of the path, to a centimetre along it, that is nearest to each of some points.
+    """Return the point of the path, to a centimetre along it, that is nearest to each of some points.
 
     Examples
     --------

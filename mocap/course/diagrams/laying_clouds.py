@@ -121,7 +121,7 @@ def laying_on(first: Motion, second: Motion, *, step: int = 4) -> Figure:
 
 
 def _places(first: Motion, second: Motion, move: Callable[[Array], Array]) -> Array:
-    """Give the joints of both windows, the second one's moved: shape (2, K, J, 3)."""
+    """Return the joints of both windows, the second one's moved: shape (2, K, J, 3)."""
     p = joint_positions(first)
     q = joint_positions(second)
     return np.stack([p, np.reshape(move(q.reshape(-1, 3)), q.shape)])

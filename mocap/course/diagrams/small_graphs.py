@@ -133,7 +133,7 @@ PROGRAM = """visit(node):
 
 
 class SearchState(NamedTuple):
-    """What Tarjan's algorithm knows after a step.
+    """The state of Tarjan's algorithm after a step.
 
     line : the number of the line of `PROGRAM` that has just run.
     message : what it has just done.
@@ -318,7 +318,7 @@ def _draw_stack(ax: Axes, height: int) -> tuple[list[Rectangle], list[Text]]:
 
 
 def _explain(figure: Figure, parts: int) -> None:
-    """Say what the colours of the nodes mean."""
+    """Write what the colours of the nodes mean."""
     named = {"not seen yet": UNSEEN, "on the stack": ON_STACK}
     named |= {f"component {n + 1}, complete": SOURCES[n] for n in range(parts)}
     look: dict[str, Any] = {"markersize": 9, "markeredgecolor": "black"}

@@ -232,7 +232,7 @@ def _draw_seam(ax: Axes, window: Motion, seam: Motion, begin: int) -> None:
 
 
 def _facing(window: Motion) -> PlanarTransform:
-    """Give the turn after which a window's middle heads along z, from the left to the right of a panel."""
+    """Return the turn after which a window's middle heads along z, from the left to the right of a panel."""
     return PlanarTransform(-float(heading(window.rotations[len(window) // 2, 0])), 0.0, 0.0)
 
 

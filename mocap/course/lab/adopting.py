@@ -206,7 +206,7 @@ def _take(slot: Slot, function: Callable[..., Any]) -> bool:
 
 @dataclass
 class _Kernel:
-    """What this kernel has read from the files beside the notebook."""
+    """The code that this kernel has read from the files beside the notebook."""
 
     text: str = ""  # of the file with the student's functions
     report: Path | None = None  # the file that tells at which function a kernel was ended

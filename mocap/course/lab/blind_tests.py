@@ -112,7 +112,7 @@ class BlindTest(Embedded):
 
     @cached_property
     def scene(self) -> dict[str, Any]:
-        """What the script shows: all films, of each pair the one with the seam first.
+        """The data of the script: all films, of each pair the one with the seam first.
 
         They are packed as characters of the player, but in steps of two millimetres. All have one body.
         """

@@ -84,7 +84,7 @@ def mean_d_prime(values: Sequence[float]) -> DPrime:
 
 
 def sentence(right: int, of: int) -> str:
-    """Say what a number of right answers shows.
+    """Return what a number of right answers shows.
 
     Examples
     --------
@@ -106,7 +106,7 @@ def sentence(right: int, of: int) -> str:
 
 
 class Answer(NamedTuple):
-    """What somebody answered to one pair."""
+    """An answer to one pair."""
 
     observer: str
     below_cm: float

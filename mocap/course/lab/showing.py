@@ -142,7 +142,7 @@ class Inspector(Embedded):
 
     @cached_property
     def scene(self) -> dict[str, Any]:
-        """What the scripts draw; `data` holds the clips' numbers and the grid's shades, compressed."""
+        """The scene of the scripts; `data` holds the clips' numbers and the grid's shades, compressed."""
         choices = self.choices
         fps = choices.clips[0].fps
         descriptions = []

@@ -105,7 +105,7 @@ def draw_added_terms(rng: np.random.Generator) -> Arguments:
 
 
 def right_added_terms(gap: Array, alpha: Array) -> tuple[Array, Array]:
-    """Give both terms of the product rule by central differences."""
+    """Return both terms of the product rule by central differences."""
     slope = (alpha[2:] - alpha[:-2]) / 2
     speed = (gap[2:] - gap[:-2]) / 2
     curvature = np.diff(alpha, 2)

@@ -86,7 +86,7 @@ def draw_cardinal_slopes(rng: np.random.Generator) -> Arguments:
 
 
 def right_cardinal_slopes(times: Array, values: Array, tension: float) -> Array:
-    """Give the slopes of a cardinal spline: of each key those of its neighbours' chord, at the ends none."""
+    """Return the slopes of a cardinal spline: of each key that of its neighbours' chord; 0 at the ends."""
     slopes = np.zeros(len(times))
     rises = values[2:] - values[:-2]
     slopes[1:-1] = (1 - tension) * rises / (times[2:] - times[:-2])

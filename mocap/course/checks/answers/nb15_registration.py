@@ -24,7 +24,7 @@ def draw_next_row(rng: np.random.Generator) -> Arguments:
 
 
 def right_next_row(diagonal: Array, best: Array, costs: Array) -> Array:
-    """Give what is known of the next row of a path's costs: its last step not diagonal, and any."""
+    """Return what is known of the next row of a path's costs: its last step not diagonal, and any."""
     diagonal_sums = 2 * costs + shifted(best)
     return np.array(
         [
