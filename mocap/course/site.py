@@ -125,9 +125,7 @@ def build_site(
             _share(notebook, out)
             notebook.cells.insert(1, nbformat.v4.new_markdown_cell(ABOVE, id="note"))
             if file.stem in terms:
-                entries = "\n".join(f"```{{index}} ! {term}\n```" for term in terms[file.stem])
-                index = nbformat.v4.new_markdown_cell(entries, id="index")
-                notebook.cells.insert(1, index)
+                notebook.cells.insert(1, _index_cell(terms[file.stem]))
             write_file(Path(folder, file.name), nbformat.writes(notebook))
         for page in notebooks.glob("*.md"):
             shutil.copy(page, folder)
@@ -157,6 +155,12 @@ def picture_address(address: str) -> str:
     'https://example.org/course/walk.png'
     """
     return f"{address.rstrip('/')}/walk.png" if address else "walk.png"
+
+
+def _index_cell(terms: list[str]) -> Any:  # noqa: ANN401
+    """Return a cell without text by which the search of the site finds terms of the glossary."""
+    entries = "\n".join(f"```{{index}} ! {term}\n```" for term in terms)
+    return library().v4.new_markdown_cell(entries, id="index")
 
 
 def _terms(glossary: Path) -> dict[str, list[str]]:
