@@ -31,7 +31,7 @@ for profile, count in EXAMPLES.items():
 settings.load_profile("house")
 
 # What takes a second or more, by `pytest --durations=0`, and the longest notebooks: a sweep runs them.
-LONG = frozenset(Path(__file__).with_name("long.txt").read_text("utf-8").split())
+LONG = frozenset(Path(__file__).with_name("long.txt").read_text("utf-8").splitlines())
 ASKED_FOR = ("benchmark", "exhaustive", *(() if SWEEP else ("sweep", "tools")))
 ACCEPTED = pytest.StashKey[dict]()  # changes of each case of test_same_results.py that are accepted
 
@@ -94,7 +94,8 @@ sys.meta_path.insert(0, DrawWithoutDisplay)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Leave out what takes long, unless `-m` or a sweep asks for it."""
     for item in items:
-        if LONG & {item.nodeid.partition("[")[0], item.nodeid.partition("::")[0]}:
+        file, function, case = item.nodeid.partition("::")[0], item.nodeid.partition("[")[0], item.nodeid
+        if LONG & {file, function, case}:
             item.add_marker(pytest.mark.sweep)
     names = [name for name in ASKED_FOR if name not in config.option.markexpr]
     out = [item for item in items if any(item.get_closest_marker(name) for name in names)]

@@ -158,6 +158,7 @@ def test_floors():
 
 
 def test_what_takes_long_is_there():
-    for line in (ROOT / "tests" / "long.txt").read_text("utf-8").split():
+    for line in (ROOT / "tests" / "long.txt").read_text("utf-8").splitlines():
         file, _, name = line.partition("::")
-        assert f"def {name}(" in (ROOT / file).read_text("utf-8") or not name, line
+        function = name.partition("[")[0].rpartition(".")[2]  # without its case; doctests have dots
+        assert f"def {function}(" in (ROOT / file).read_text("utf-8") or not name, line
