@@ -62,12 +62,16 @@ def steer(
     if out:
         check_out("recording", out, [graph] if graph else [])
     with timed_stage("loading packages"):
-        from mocap.widgets.steering_server import SteeringServer  # the help needs no NumPy
+        from mocap.graphs.storage import licences_in  # the help needs no NumPy
+        from mocap.widgets.steering_server import SteeringServer
 
     motions = _graph_of(graph, Sources(skeleton, joints=joints), clips, out)
+    licences = sorted({name or "unknown" for name in licences_in(graph).values()}) if graph else []
     with timed_stage("preparing the figure"), named_options({"port": "--port"}):
         server = SteeringServer(motions, label, port=port, recorded=_writer(out))
     with server:
+        if licences:
+            print_rows(licences=", ".join(licences))
         _print_now(steer=server.address)
         print_message("only this machine can open the page; Ctrl-C ends it.")
         gc.freeze()  # a step waits for no visit of the collector to the graph

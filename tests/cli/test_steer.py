@@ -41,6 +41,15 @@ def test_the_address_is_printed_and_opened_and_ctrl_c_ends_it_in_a_sentence(grap
     assert err.splitlines()[-1] == "mocap: the page has ended, after 0 recordings."
 
 
+def test_the_licences_of_the_clips_are_said(graph, monkeypatch, capsys):
+    licensed = ["graph", "walk-2.bvh", "--licence", "CC BY-NC 4.0", "-o", str(graph)]
+    assert main(licensed) == 0
+    monkeypatch.setattr("webbrowser.open", interrupted)
+    capsys.readouterr()
+    assert main(["steer", str(graph)]) == INTERRUPTED
+    assert "licences     CC BY-NC 4.0\n" in capsys.readouterr().out
+
+
 def test_an_unknown_label_and_a_port_in_use_are_refused(graph, capsys):
     assert main(["steer", str(graph), "--label", "fly"]) == 2
     assert "No clip of the graph bears the label 'fly'" in capsys.readouterr().err
