@@ -11,12 +11,13 @@ from mocap.course.lab.blind_tests import BlindTest
 from mocap.course.lab.showing import Inspector
 from mocap.widgets.embedding import joined
 from mocap.widgets.player import Player
+from mocap.widgets.steering_server import SCRIPTS
 from mocap.widgets.walking_page import HERE, PARTS
 
 ROOT = Path(__file__).parents[1]
 TOOLS = ROOT / "tests" / "javascript"
 PROGRAMS = TOOLS / "node_modules" / ".bin"
-MODULES = ("player", "inspector", "blind test", "walking page", "steering", "dragging", "naming")
+MODULES = ("player", "inspector", "blind test", "walking page", "steering", "dragging", "naming", "served")
 # Their pictures have no light, so that they shade no body, and leave out the scripts that do.
 UNSHADED = {"inspector": {"Shading", "rgb"}, "blind test": {"Shading", "rgb"}}
 
@@ -63,6 +64,7 @@ def module(name):
 
         return {"steering": Steered, "dragging": Handles, "naming": Naming}[name]._esm
     pages = {"player": Player.scripts, "inspector": Inspector.scripts, "blind test": BlindTest.scripts}
+    pages["served"] = SCRIPTS
     return joined(*pages.get(name, (HERE / f"{part}.js" for part in PARTS)))
 
 

@@ -46,6 +46,7 @@ REFUSED = {
     "graph build": NOWHERE,
     "graph info": NOWHERE,
     "walk": f"{NOWHERE} --random 1s",
+    "steer": NOWHERE,
     "page": NOWHERE,
     "blend": f"{NOWHERE} a.bvh",
     "info": NOWHERE,
@@ -109,8 +110,8 @@ WORKS = {
     "lab": "lab --reset 03 -- --version",
     "completion": "bash",
 }
-# What needs a network, JupyterLite, or the means of Linux; they are in REFUSED.
-NEVER = {"data fetch", "course lite", "course mark"}
+# What needs a network, JupyterLite, or the means of Linux, or does not end by itself; they are in REFUSED.
+NEVER = {"data fetch", "course lite", "course mark", "steer"}
 HIDDEN = """
 import importlib, multiprocessing, os, pathlib, select, signal, socket, subprocess, sys, time
 for name in ("resource", "fcntl", "pwd", "grp", "termios", "pty", "readline"):

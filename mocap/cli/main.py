@@ -29,6 +29,7 @@ from mocap.cli.labels import label
 from mocap.cli.messages import VERBOSITY, Verbosity, at_verbosity, note, print_message
 from mocap.cli.options import named_options, retargeting_advised
 from mocap.cli.page import page
+from mocap.cli.steer import steer
 from mocap.cli.streams import PatientOutput, prepared_streams
 from mocap.cli.typed_commands import Commands, Group, make_root, option_names
 from mocap.cli.walk import walk
@@ -85,7 +86,10 @@ def completion(shell: Literal["bash", "zsh", "fish"]) -> None:
     print(script)
 
 
-GRAPHS: Commands = {"demo": demo, "graph": GRAPH, "walk": walk, "page": page, "crowd": crowd}
+GRAPHS: Commands = {
+    **{"demo": demo, "graph": GRAPH, "walk": walk},
+    **{"steer": steer, "page": page, "crowd": crowd},
+}
 CLIPS: Commands = {
     **{"info": info, "view": view, "judge": judge},
     **{"convert": convert, "find": find, "label": label},

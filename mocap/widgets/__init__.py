@@ -20,10 +20,12 @@ Reading order (notebooks 00 to 19)
 13. `film`: a motion as a film, a still picture or a page
 14. `company`: characters that are stepped together, and the delay of each response
 15. `steered_widget`: characters side by side that obey one command of the reader
-16. `walk_bending`: walks bent onto a line, with feet that stand still
-17. `walk_kinds`: the kinds of motion that can follow lines
-18. `walking_page`: a page on which a figure walks along drawn lines
-19. `link_picture`: the picture that a link to this page shows
+16. `steered_session`: a character that a page steers, and its last minutes for recordings
+17. `steering_server`: the page for steering, and its server on the own machine
+18. `walk_bending`: walks bent onto a line, with feet that stand still
+19. `walk_kinds`: the kinds of motion that can follow lines
+20. `walking_page`: a page on which a figure walks along drawn lines
+21. `link_picture`: the picture that a link to this page shows
 
 References
 ----------

@@ -8,3 +8,4 @@ from .player import Player as Player
 from .player import play as play
 from .pointing import handles as handles
 from .steered_widget import steered as steered
+from .steering_server import SteeringServer as SteeringServer

@@ -23,7 +23,7 @@ from mocap.widgets.live import display_live
 from mocap.widgets.player import LOOK, play
 from mocap.widgets.shared_traits import AnyWidget, shared, validate
 
-OWN = ("steered_walker.js", "steering_page.js", "steering.js")
+OWN = ("steered_command.js", "steered_walker.js", "steering_page.js", "steering.js")
 RECORDED = ((0.0, 2.0), (math.pi / 2, 4.0), (-math.pi / 4, 4.0))  # headings, radians, and their seconds
 APART = 1.5  # metres between two characters of the recording
 MOST = 1.0  # longest duration of one answer, seconds

@@ -6,7 +6,8 @@
 
 import { LOOKS } from "./bodies.js";
 import { DARK, LIGHT, isDark, keepKeys, partOf } from "./player_page.js";
-import { STEERING_KEYS, STEERING_PARTS, VIEWS, panel } from "./steering_page.js";
+import { VIEWS, arrowOf, headingOf } from "./steered_command.js";
+import { STEERING_KEYS, STEERING_PARTS, panel } from "./steering_page.js";
 import { whenPointed } from "./touch.js";
 
 /**
@@ -238,12 +239,8 @@ class Steering {
    * The heading of a direction on the picture: [to the right, up], where up is away from the reader.
    * @param {number[]} direction
    */
-  heading([right, up]) {
-    const { yaw } = this.shared;
-    return Math.atan2(
-      right * Math.cos(yaw) - up * Math.sin(yaw),
-      -right * Math.sin(yaw) - up * Math.cos(yaw),
-    );
+  heading(direction) {
+    return headingOf(direction, this.shared.yaw);
   }
 
   /** @param {PointerEvent} event */
@@ -496,16 +493,9 @@ class Steering {
    * The command as an arrow on the ground, longer for a faster one.
    * @param {number[]} place
    */
-  arrow([x, , z]) {
+  arrow(place) {
     const { heading, speed } = this.command;
-    const [s, c] = [Math.sin(heading), Math.cos(heading)];
-    const far = 0.5 + 0.5 * speed;
-    /**
-     * @param {number} along
-     * @param {number} aside
-     */
-    const at = (along, aside) => [x + along * s + aside * c, z + along * c - aside * s];
-    return [at(0.3, 0), at(far, 0), at(far - 0.2, 0.14), at(far, 0), at(far - 0.2, -0.14)];
+    return arrowOf(place, heading, speed);
   }
 
   showCommand() {

@@ -3,6 +3,7 @@
 import { STYLE, partOf } from "./player_page.js";
 import { Picture } from "./player_picture.js";
 import { Camera } from "./player_scene.js";
+import { VIEW_OPTIONS } from "./steered_command.js";
 import { Walker } from "./steered_walker.js";
 
 /**
@@ -41,12 +42,6 @@ const STEERING_STYLE = `
   .mocap-steering .beside { flex-basis: 120px; } .mocap-steering .speed { width: 80px; }
   .mocap-steering figcaption { flex: 1 1 35%; align-self: center; }
 }`;
-
-/** @type {Record<string, [yaw: number, pitch: number]>} */
-export const VIEWS = { behind: [Math.PI, 0.35], side: [Math.PI / 2, 0.25], above: [Math.PI, 1.5] }; // yaw and pitch of the camera
-const VIEW_OPTIONS = Object.keys(VIEWS)
-  .map((name) => `<option>${name}</option>`)
-  .join("");
 
 export const STEERING_PARTS = `<style>${STYLE}${STEERING_STYLE}</style><div class="panels" tabindex="0" role="application"></div>
   <div class="bar"><div class="pad"><i></i></div><div class="beside">
