@@ -13,7 +13,7 @@ from mocap.body.motion import Motion, require_motion
 from mocap.editing.boxes import PositionBoxes, RelativeRotation, RotationBoxes
 from mocap.editing.constraint_checks import require_pins_of
 from mocap.editing.constraints import Pins
-from mocap.editing.poses import Frames, MotionOrPoses, poses_of
+from mocap.editing.poses import Frames, MotionOrPoses, Poses, poses_of
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
 from mocap.feet.ankle_targets import place_plants
@@ -173,10 +173,17 @@ def plant_pins(
     Notebook: 12-path-editing
     """
     poses = poses_of(motion)
+    legs = find_legs(poses.motion.skeleton) if legs is None else legs
+    return pins_of_plants(poses, legs, settled_marks(poses.motion, legs), heights)
+
+
+def pins_of_plants(
+    poses: Poses, legs: Sequence[Leg], leg_marks: Mask, heights: ArrayLike | None = None
+) -> Pins:
+    """Hold ankles and balls as `plant_pins` does, while marks (legs, 2, F) say that they stand."""
     skeleton = poses.motion.skeleton
-    legs = find_legs(skeleton) if legs is None else legs
     parts = []
-    for number, (leg, marks) in enumerate(zip(legs, settled_marks(poses.motion, legs), strict=True)):
+    for number, (leg, marks) in enumerate(zip(legs, leg_marks, strict=True)):
         tracks = np.swapaxes(poses.positions[:, [leg.ankle, leg.ball]], 0, 1)  # (2, F, 3)
         length = float(leg.lengths(skeleton)[2])
         if heights is None:

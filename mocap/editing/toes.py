@@ -12,6 +12,7 @@ import numpy as np
 from scipy.ndimage import convolve1d, maximum_filter1d
 
 from mocap._shared.arrays import Array
+from mocap._shared.records import NamedTuple
 from mocap.body import rotations
 from mocap.body.kinematics import hinge_of, joint_positions, positions_of
 from mocap.body.legs import Leg
@@ -24,6 +25,41 @@ from mocap.errors import MocapError
 
 SLACK = 0.001  # metres: a tip that is lower by less is left alone
 SHORT = 1e-9  # metres: toes that point straight down in every frame have no lateral axis, and stay
+
+
+class Feet(NamedTuple):
+    """The feet of a skeleton.
+
+    Parameters
+    ----------
+    legs : both legs; none for a body without legs.
+    tips : of each leg, the joints that end its toes.
+    joints : the ankles and all joints below them.
+    """
+
+    legs: tuple[Leg, ...]
+    tips: tuple[list[int], ...]
+    joints: list[int]
+
+
+def feet_of(motion: MotionOrPoses) -> Feet:
+    """Find the feet of a motion's skeleton; none for a body without legs.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")
+    >>> [walk.skeleton.names[joint] for joint in feet_of(walk).joints]
+    ['lfoot', 'ltoes', 'ltoes_end', 'rfoot', 'rtoes', 'rtoes_end']
+    """
+    try:
+        skeleton = with_roles(motion_of(motion)).skeleton
+        legs = find_legs(skeleton)
+    except MocapError:
+        return Feet((), (), [])
+    ankles = {leg.ankle for leg in legs}
+    joints = [joint for joint in range(len(skeleton)) if ankles & {*skeleton.path_to_root(joint)}]
+    return Feet(legs, tuple(toe_tips(skeleton, leg) for leg in legs), joints)
 
 
 def toe_tips(skeleton: Skeleton, leg: Leg) -> list[int]:
@@ -46,25 +82,24 @@ def lowest_heights(clips: Sequence[Motion]) -> Array:
     return np.asarray(np.min([joint_positions(clip)[..., 1].min(axis=0) for clip in clips], axis=0))
 
 
-def lowest_of_feet(motion: MotionOrPoses) -> Array:
+def lowest_of_feet(motion: MotionOrPoses, feet: Feet) -> Array:
     """Compute the lowest height of each joint of the feet in a motion, (J,), metres; -∞ for other joints.
 
     Examples
     --------
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")
-    >>> [round(float(lowest_of_feet(walk)[walk.skeleton.index(name)]), 3) for name in ("ltoes_end", "head")]
+    >>> [float(lowest_of_feet(walk, feet_of(walk))[joint].round(3)) for joint in (12, 30)]
     [0.017, -inf]
     """
-    clip = motion_of(motion)
-    feet = _joints_of_feet(clip)
-    lowest = np.full(len(clip.skeleton), -np.inf)
-    positions = motion.positions[:, feet] if isinstance(motion, Poses) else positions_of(motion, feet)
-    lowest[feet] = positions[..., 1].min(axis=0)
+    lowest = np.full(len(motion_of(motion).skeleton), -np.inf)
+    joints = feet.joints
+    positions = motion.positions[:, joints] if isinstance(motion, Poses) else positions_of(motion, joints)
+    lowest[joints] = positions[..., 1].min(axis=0)
     return lowest
 
 
-def lowest_allowed(motion: MotionOrPoses, lowest: Array | None = None) -> Array:
+def lowest_allowed(motion: MotionOrPoses, lowest: Array | None = None, feet: Feet | None = None) -> Array:
     """Compute the lowest height of each joint that is allowed after an edit, (F, J), metres.
 
     A joint may be on the floor, y = 0, or as far under it as it was in the same frame. An ankle, and what is
@@ -75,6 +110,7 @@ def lowest_allowed(motion: MotionOrPoses, lowest: Array | None = None) -> Array:
     motion : F frames, before the edit.
     lowest : the lowest height of each joint in the clips that the motion is made of, (J,), metres; by default
         in the motion itself.
+    feet : by default those of `feet_of`.
 
     Examples
     --------
@@ -88,12 +124,12 @@ def lowest_allowed(motion: MotionOrPoses, lowest: Array | None = None) -> Array:
     heights = poses.positions[..., 1]
     lowest = heights.min(axis=0) if lowest is None else lowest
     allowed = np.minimum(heights, 0.0)
-    feet = _joints_of_feet(poses.motion)
-    allowed[:, feet] = np.maximum(lowest[feet], allowed[:, feet])
+    joints = (feet or feet_of(poses)).joints
+    allowed[:, joints] = np.maximum(lowest[joints], allowed[:, joints])
     return allowed
 
 
-def bend_toes(motion: MotionOrPoses, allowed: Array) -> Motion:
+def bend_toes(motion: MotionOrPoses, allowed: Array, feet: Feet | None = None) -> Motion:
     """Bend toes so that their tips are no lower than allowed.
 
     Only the rotations of the balls change. A bend begins and ends smoothly within 0.05 s.
@@ -103,6 +139,7 @@ def bend_toes(motion: MotionOrPoses, allowed: Array) -> Motion:
     motion : F frames of J joints.
     allowed : the lowest height of each joint, (F, J), metres, as `lowest_allowed` computes it; only those of
         toe tips matter.
+    feet : by default those of `feet_of`.
 
     Returns
     -------
@@ -120,8 +157,8 @@ def bend_toes(motion: MotionOrPoses, allowed: Array) -> Motion:
     poses = poses_of(motion)
     source = poses.motion
     local = source.rotations.copy()
-    for leg in _legs(source):
-        tips = toe_tips(source.skeleton, leg)
+    feet = feet or feet_of(source)
+    for leg, tips in zip(feet.legs, feet.tips, strict=True):
         if not tips or (poses.positions[:, tips, 1] >= allowed[:, tips] - SLACK).all():
             continue
         axis = _lateral_axis(poses, leg, tips)
@@ -131,21 +168,6 @@ def bend_toes(motion: MotionOrPoses, allowed: Array) -> Motion:
     if np.array_equal(local, source.rotations):
         return source
     return replace(source, rotations=local)
-
-
-def _joints_of_feet(motion: Motion) -> list[int]:
-    """List the ankles and the joints below them."""
-    skeleton = motion.skeleton
-    ankles = {leg.ankle for leg in _legs(motion)}
-    return [joint for joint in range(len(skeleton)) if ankles & {*skeleton.path_to_root(joint)}]
-
-
-def _legs(motion: Motion) -> tuple[Leg, ...]:
-    """Find the legs of a motion; () if it has none."""
-    try:
-        return find_legs(with_roles(motion).skeleton)
-    except MocapError:
-        return ()
 
 
 def _lateral_axis(poses: Poses, leg: Leg, tips: Sequence[int]) -> Array:
