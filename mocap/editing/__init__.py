@@ -17,26 +17,27 @@ Reading order (notebooks 10 to 14)
  9. `solver`: its stages; the smallest smooth change that meets constraints, for single frames or all together
 10. `toes`: toes that bend so that their tips stay above the floor
 11. `standing`: what keeps standing under an edit: plants, a floor, and marks that are true
-12. `edits`: a smooth change that meets constraints exactly
-13. `foot_cleaning`: feet that do not slide, and joints that are not under the floor
-14. `posing`: a single pose, made by dragging joints
-15. `levels`: constraints met level by level, from coarse to fine
-16. `path_editing`: the path of a motion, and the motion on another path
-17. `turning`: slower in bends, and leaning in, as people take them
-18. `line_rounding`: lines rounded where a walk would turn too fast
-19. `bending`: a walk bent to any line, with feet that stand
-20. `keys`: keys, the curve through them, and warps by offsets and by scale
-21. `retiming`: time keys, and motions at moments between their frames
-22. `warp_plans`: a whole warp from a small text file
-23. `foot_heights`: heights of ankles and balls that stand
-24. `stances`: the stance of a body, from its rest pose, a pose, or a walk
-25. `proportions`: bodies with longer or shorter limbs
-26. `pose_copying`: global rotations and the path of the hips, copied to another body
-27. `retargeting`: a copied motion, changed until its feet stand on the floor
-28. `mirroring`: left and right exchanged, by names and geometry
-29. `cycles`: the best cycle of a clip, closed by a blend
-30. `travel`: the travel on the ground, removed
-31. `tuned`: the constants that trials chose
+12. `above_floor`: the one pass of all edits: solved for, with bent toes, above a floor
+13. `edits`: a smooth change that meets constraints exactly
+14. `foot_cleaning`: feet that do not slide, and joints that are not under the floor
+15. `posing`: a single pose, made by dragging joints
+16. `levels`: constraints met level by level, from coarse to fine
+17. `path_editing`: the path of a motion, and the motion on another path
+18. `turning`: slower in bends, and leaning in, as people take them
+19. `line_rounding`: lines rounded where a walk would turn too fast
+20. `bending`: a walk bent to any line, with feet that stand
+21. `keys`: keys, the curve through them, and warps by offsets and by scale
+22. `retiming`: time keys, and motions at moments between their frames
+23. `warp_plans`: a whole warp from a small text file
+24. `foot_heights`: heights of ankles and balls that stand
+25. `stances`: the stance of a body, from its rest pose, a pose, or a walk
+26. `proportions`: bodies with longer or shorter limbs
+27. `pose_copying`: global rotations and the path of the hips, copied to another body
+28. `retargeting`: a copied motion, changed until its feet stand on the floor
+29. `mirroring`: left and right exchanged, by names and geometry
+30. `cycles`: the best cycle of a clip, closed by a blend
+31. `travel`: the travel on the ground, removed
+32. `tuned`: the constants that trials chose
 
 References
 ----------

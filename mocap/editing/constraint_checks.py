@@ -48,7 +48,7 @@ def require_pins_of(motion: Motion, pins: Pins) -> None:
         raise MocapError(f"No joint {unknown[0]}: there are {len(motion.skeleton)}, counted from 0.")
 
 
-def require_reachable(motion: Motion, pins: Pins) -> None:
+def require_reachable(motion: Motion, pins: Pins, first_frame: int = 0) -> None:
     """Raise `MocapError` for constraints that no pose can meet.
 
     Two boxes are at least ‖max(low₁ - high₂, low₂ - high₁, 0)‖ apart. Two joints are at most as far apart as
@@ -58,6 +58,7 @@ def require_reachable(motion: Motion, pins: Pins) -> None:
     Parameters
     ----------
     motion, pins : F frames.
+    first_frame : the number of the first of them in the clip, which the error counts from.
 
     Raises
     ------
@@ -74,7 +75,9 @@ def require_reachable(motion: Motion, pins: Pins) -> None:
             first = skeleton.names[pins.joints[a]]
             second = skeleton.names[pins.joints[b]]
             request = f"'{second}' would be {distances[worst]:.2f} m from '{first}'"
-            raise MocapError(f"Frame {worst}: {request}, the bones between reach {reach:.2f} m.")
+            raise MocapError(
+                f"Frame {first_frame + worst}: {request}, the bones between reach {reach:.2f} m."
+            )
 
 
 def _distances_between_boxes(pins: Pins, a: int, b: int) -> Array:
@@ -86,7 +89,11 @@ def _distances_between_boxes(pins: Pins, a: int, b: int) -> Array:
 
 
 def warn_of_errors(
-    motion: Motion, joints: Sequence[int], errors: Array, tolerance: float = TOLERANCE
+    motion: Motion,
+    joints: Sequence[int],
+    errors: Array,
+    tolerance: float = TOLERANCE,
+    first_frame: int = 0,
 ) -> None:
     """Warn of the constraint with the largest error, if that is above a tolerance.
 
@@ -96,6 +103,7 @@ def warn_of_errors(
     joints : of the P + R constraints, as from `Pins.indices`.
     errors : of the motion, as from `pin_errors`, (F, P + R), metres.
     tolerance : metres.
+    first_frame : the number of the motion's first frame in the clip, which the warning counts from.
 
     Examples
     --------
@@ -119,4 +127,4 @@ def warn_of_errors(
         frames = int((errors > tolerance).any(axis=1).sum())
         missed = f"pins of {frames} frames are missed"
         question = "are they within reach, and do they agree?"
-        warn(f"'{motion.name}', frame {frame}: {worst}, and {missed}: {question}")
+        warn(f"'{motion.name}', frame {first_frame + frame}: {worst}, and {missed}: {question}")

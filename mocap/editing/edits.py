@@ -2,18 +2,25 @@
 
 import numpy as np
 
-from mocap._shared.arrays import Array, runs
+from mocap._shared.arrays import runs
 from mocap._shared.records import NamedTuple
 from mocap.body.motion import Motion
+from mocap.editing.above_floor import Heights, Solving, meet_above_floor
 from mocap.editing.bodies import Body, priced
-from mocap.editing.constraint_checks import require_pins_of, require_reachable, warn_of_errors
+from mocap.editing.constraint_checks import require_pins_of, warn_of_errors
 from mocap.editing.constraints import Pins
 from mocap.editing.pins import join_pins
-from mocap.editing.poses import MotionOrPoses, Poses, poses_of, with_part
-from mocap.editing.solver import EVERY_FRAME, solve_stages
+from mocap.editing.poses import MotionOrPoses, motion_of, poses_of, with_part
+from mocap.editing.solver import EVERY_FRAME
 from mocap.editing.stages import Stage, closing_stages
-from mocap.editing.standing import CLOSED, allowed_by, floor_for, mark_met, plants_within, region_around
-from mocap.editing.toes import SLACK, bend_toes, lowest_of_feet
+from mocap.editing.standing import (
+    CLOSED,
+    Source,
+    allowed_by,
+    mark_met,
+    plants_within,
+    source_of,
+)
 from mocap.editing.tuned import TUNED
 
 
@@ -62,12 +69,14 @@ def edit(motion: Motion, pins: Pins, *, body: Body | None = None, frames: slice 
     require_pins_of(motion, pins)
     if not pins.constrained.any():
         return motion
-    if frames is not None:
-        return brought(motion, motion, pins, body, frames)
-    lowest = lowest_of_feet(motion)
+    if frames is None:
+        parts = [(window, pins.limited_to(window)) for window in _windows(pins, motion.fps)]
+    else:
+        parts = [(frames, pins)]
+    source = source_of(motion)
     edited = motion
-    for window in _windows(pins, motion.fps):
-        edited = brought(edited, motion, pins.limited_to(window), body, window, lowest)
+    for window, part in parts:
+        edited = brought(edited, source, part, body, window)
     return edited
 
 
@@ -91,10 +100,6 @@ class Section(NamedTuple):
         """The frames that may change, counted from the first of the outer ones."""
         return slice(self.inner.start - self.outer.start, self.inner.stop - self.outer.start)
 
-    def counted_from(self, first: int) -> "Section":
-        """Return the section with frames counted from another one than the first."""
-        return Section(*(slice(frames.start - first, frames.stop - first) for frames in self))
-
 
 def section_of(frames: slice, count: int, fps: float) -> Section:
     """Return the section for frames that may change, of a motion of `count` frames."""
@@ -103,79 +108,63 @@ def section_of(frames: slice, count: int, fps: float) -> Section:
     return Section(slice(start, stop), slice(max(0, start - margin), min(count, stop + margin)))
 
 
-def brought(  # noqa: PLR0913 (two motions, constraints, what may change, and what is known)
-    motion: Motion,
-    source: MotionOrPoses,
-    pins: Pins,
-    body: Body | None = None,
-    frames: slice = EVERY_FRAME,
-    lowest: Array | None = None,
+def brought(
+    motion: Motion, source: Source, pins: Pins, body: Body | None = None, frames: slice = EVERY_FRAME
 ) -> Motion:
     """Change a motion as `edit` does, with the plants and the floor of the motion that it was made of.
 
-    Of both motions only the frames near those that may change are looked at, with all frames of plants that
-    reach there. The whole of them shows which joints are hinges, and how low feet are.
+    Only the frames near those that may change are solved for. The whole of the motion shows which joints are
+    hinges, that of the source where feet stand, and how low they are.
 
     Parameters
     ----------
-    motion, source, pins : F frames.
+    motion, pins : F frames.
+    source : the motion that it was made of, F frames.
     body, frames : as for `edit`.
-    lowest : of the source, from `lowest_of_feet`, if it is known already.
     """
-    if not len(range(len(motion))[frames]):  # nothing may change
-        warn_of_errors(motion, pins.indices, pins.errors(poses_of(motion)), CLOSED)
-        return motion
-    lowest = lowest_of_feet(source) if lowest is None else lowest
-    return with_part(motion, _changed(motion, source, pins, body, frames, lowest), frames)
+    if len(range(len(motion))[frames]):
+        return with_part(motion, _changed(motion, source, pins, body, frames), frames)
+    # No frame may change.
+    warn_of_errors(motion, pins.indices, pins.errors(poses_of(motion)), CLOSED)
+    return motion
 
 
-def _changed(  # noqa: PLR0913 (as for `brought`)
-    motion: Motion, source: MotionOrPoses, pins: Pins, body: Body | None, frames: slice, lowest: Array
-) -> Motion:
-    """Return the frames that `brought` changes.
-
-    If joints would sink, the constraints are solved for again, together with a floor.
-    """
+def _changed(motion: Motion, source: Source, pins: Pins, body: Body | None, frames: slice) -> Motion:
+    """Return the frames that `brought` changes."""
     section = section_of(frames, len(motion), motion.fps)
-    region = region_around(source, section.outer)
-    section = section.counted_from(region.start)
-    base = region.poses if source is motion else poses_of(motion[region.frames])
+    inner = section.inner_of_outer
+    known = poses_of(source.clip[section.outer])
+    base = known if source.clip is motion else poses_of(motion[section.outer])
     stays = np.ones(len(base), bool)
-    stays[section.inner] = False
-    allowed = allowed_by(pins[region.frames], region.poses, lowest)[section.outer]
-    steady = plants_within(region.plants, region.poses.with_frames_of(base, stays), section.inner)
-    wanted = join_pins(steady, pins[region.frames])[section.outer]
-    outer = base[section.outer]
-    solved = solved_section(outer, motion, wanted, body, section.inner_of_outer)
-    bent = solved.updated(bend_toes(solved, allowed))
-    floor = floor_for(bent, region.plants.joints, allowed)
-    if floor.errors(solved).max() > SLACK:
-        solved = solved_section(outer, motion, join_pins(floor, wanted), body, section.inner_of_outer)
-        bent = solved.updated(bend_toes(solved, allowed))
-    marked = mark_met(bent, wanted.indices, wanted.errors(bent), region.plants[section.outer])
-    return marked.motion[section.inner_of_outer]
+    stays[inner] = False
+    plants = source.plants[section.outer]
+    steady = plants_within(plants, known.with_frames_of(base, stays), inner, source.feet.legs)
+    wanted = join_pins(steady, pins[section.outer])
+    allowed = allowed_by(pins[section.outer], known, source)
+    heights = Heights(source.feet, allowed, allowed, plants.joints)
+    solving = edit_solving(motion, body)._replace(frames=inner, first_frame=section.outer.start)
+    changed = meet_above_floor(base, wanted, solving, heights)
+    marked = mark_met(changed, wanted, plants, section.outer.start)
+    return marked[inner]
 
 
-def solved_section(
-    outer: Poses, clip: MotionOrPoses, pins: Pins, body: Body | None = None, inner: slice = EVERY_FRAME
-) -> Poses:
-    """Return the outer frames of a section, changed so that they meet the constraints on them.
+def edit_solving(clip: MotionOrPoses, body: Body | None = None) -> Solving:
+    """Return how an edit solves: splines make the change, then each frame closes what they leave.
 
     Parameters
     ----------
-    outer : F frames.
     clip : the whole motion, which shows the hinges.
-    pins : constraints of the F frames.
     body : as for `edit`.
-    inner : those of the F frames that may change.
     """
-    require_reachable(outer.motion, pins)
-    if body is None:
-        body = priced(clip, pins.movers(outer.motion.skeleton), TUNED.trunk, TUNED.neck)
-    return solve_stages(outer, pins, edit_stages(), body, inner).poses
+
+    def body_for(pins: Pins) -> Body:
+        movers = pins.movers(motion_of(clip).skeleton)
+        return priced(clip, movers, TUNED.trunk, TUNED.neck) if body is None else body
+
+    return Solving(edit_stages(), body_for)
 
 
 def edit_stages() -> tuple[Stage, ...]:
-    """Return the stages of an edit: splines make the change, then each frame closes what they leave."""
+    """Return the stages of an edit: splines, and then those that close what they leave."""
     splines = Stage(knots=TUNED.knots, decay=TUNED.decay, weight=TUNED.weight, lead=TUNED.lead)
     return splines, *closing_stages()

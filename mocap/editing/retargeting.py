@@ -12,20 +12,19 @@ import numpy as np
 from mocap._shared.arguments import checked_by
 from mocap._shared.arrays import Array
 from mocap._shared.quantities import described
+from mocap.body.foot_joints import feet_of
 from mocap.body.limbs import FEET, SIDES
 from mocap.body.motion import Motion, require_motion
 from mocap.body.skeleton import Skeleton
-from mocap.editing.bodies import body_rotating
-from mocap.editing.constraint_checks import require_reachable
+from mocap.editing.above_floor import Heights, Solving, meet_above_floor
+from mocap.editing.bodies import Body, body_rotating
 from mocap.editing.constraints import Pins
 from mocap.editing.pins import join_pins, plant_pins, with_plants
 from mocap.editing.pose_copying import copied
 from mocap.editing.poses import MotionOrPoses, Poses, poses_of
-from mocap.editing.solver import solve_stages
 from mocap.editing.stages import Stage, closing_stages
 from mocap.editing.stances import Stance, stance_of, stance_of_zero
-from mocap.editing.standing import floor_for, mark_met
-from mocap.editing.toes import bend_toes
+from mocap.editing.standing import mark_met
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError, shortened, warn
 from mocap.feet.footskate import clean_up
@@ -94,28 +93,25 @@ def retarget(motion: Motion, body: Stance, source: Stance, *, scale: float | Non
     positions = poses.positions
     plants = floor_pins(base, body)
     pins = join_pins(floor_under(positions, source, body), plants)
-    worn = _solved(base, pins, body)
     allowed = lowest_worn(positions, body.leg / source.leg, len(body.skeleton))
-    bent = worn.updated(bend_toes(worn, allowed))
-    floor = floor_for(bent, (), allowed)
-    if floor.joints:
-        worn = _solved(base, join_pins(floor, pins), body)
-        bent = worn.updated(bend_toes(worn, allowed))
-    moved = np.abs(bent.motion.root_positions - base.motion.root_positions).max()
+    worn = meet_above_floor(base, pins, _solving(base, body), Heights(feet_of(base.motion), allowed, allowed))
+    moved = np.abs(worn.motion.root_positions - base.motion.root_positions).max()
     if moved > TUNED.worn_hips * body.leg:
         hips = f"the hips move by {100 * moved:.0f} cm to take these steps"
         legs = f"with legs of {100 * body.leg:.0f} cm: no leg takes them at ease"
         warn(f"'{shortened(motion.name)}': {hips}, {legs}.")
-    return mark_met(bent, pins.indices, pins.errors(bent), plants).motion
+    return mark_met(worn, pins, plants)
 
 
-def _solved(base: Poses, pins: Pins, body: Stance) -> Poses:
-    """Change a copied motion until its constraints are met, at a higher cost of knees and trunk."""
-    require_reachable(base.motion, pins)
+def _solving(base: Poses, body: Stance) -> Solving:
+    """Return how a copied motion is solved for: with a higher cost of knees and trunk than in an edit."""
     smooth = Stage(knots=TUNED.worn_knots, decay=TUNED.worn_decay, passes=TUNED.worn_passes)
     costs = dict.fromkeys(_stiff_joints(body), TUNED.worn_stiffness)
-    rotating = body_rotating(base, pins.movers(body.skeleton), costs)
-    return solve_stages(base, pins, (smooth, *closing_stages()), rotating).poses
+
+    def body_for(pins: Pins) -> Body:
+        return body_rotating(base, pins.movers(body.skeleton), costs)
+
+    return Solving((smooth, *closing_stages()), body_for)
 
 
 def _stiff_joints(body: Stance) -> list[str]:

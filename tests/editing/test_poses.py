@@ -72,7 +72,7 @@ def test_an_edit_runs_forward_kinematics_once_beside_its_iterations(counted, mon
         passes.append(solve_stages(*arguments, **options))
         return passes[-1]
 
-    monkeypatch.setattr("mocap.editing.edits.solve_stages", solve_and_keep)
+    monkeypatch.setattr("mocap.editing.above_floor.solve_stages", solve_and_keep)
     edit(CLIP, HAND)
     iterations = sum(len(solved.worst) - 1 for solved in passes)
     assert len(passes) == 1 and iterations <= sum(stage.passes for stage in edit_stages())
