@@ -194,6 +194,7 @@ TRIALS = {
     "rotation_price": Trial(commanded, (0.0, 0.1, 0.6)),
     "turned_seam": Trial(commanded, (1.0, 6.0)),
     "pace_price": Trial(commanded, (0.0, 3.0, 12.0)),
+    "turned_ahead": Trial(commanded, (3.0, 1.0, 2.0)),
     "standing_seconds": Trial(directed, (0.2, 0.6)),
     "starting_seconds": Trial(directed, (0.2, 1.0)),
     "standing_nodes": Trial(directed, (1, 6)),

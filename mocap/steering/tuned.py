@@ -42,6 +42,8 @@ class Tuned:
     turned_seam: float = 3.0  # factor of the price of a seam, as no seam is needed for a turn. At 1 more jolt
     pace_price: float = 6.0  # factor of the price of a wrong pace, which is stretched. At 0 fast clips jolt
 
+    turned_ahead: float = 1.5  # seconds of the look-ahead. At 3 a step takes longer, at 1 more jolt
+
     # Directions
     standing_seconds: float = 0.4  # seconds that a clip must stand to be a start or an end, half a step
     starting_seconds: float = 0.5  # seconds before the end of a standing stretch in which walks start
