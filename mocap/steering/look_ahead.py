@@ -103,9 +103,8 @@ class LookAhead:
     def restart(self, node: int, rotation: complex) -> None:
         """Begin anew at a node, where the clip is rotated, with one walk without macro-edges."""
         no_frames = np.zeros(1, np.intp)
-        self.walks = Walks(
-            np.array([node]), np.array([rotation]), no_frames, np.zeros(1), np.full(1, -1, np.intp)
-        )
+        no_macro_edge = np.full(1, -1, np.intp)
+        self.walks = Walks(np.array([node]), np.array([rotation]), no_frames, np.zeros(1), no_macro_edge)
         self.decided = False
 
     @property
@@ -165,13 +164,10 @@ class LookAhead:
         price = error / seconds + price
         if request.label >= 0:
             price += LABEL * self.seconds_without[request.label, macro_edge]
-        return Walks(
-            node=self.target[macro_edge],
-            rotation=rotation,
-            frames=short.frames[row] + self.graph.macro_edges.frames[macro_edge],
-            cost=short.cost[row] + price,
-            first=np.where(first < 0, macro_edge, first),
-        )
+        node = self.target[macro_edge]
+        frames = short.frames[row] + self.graph.macro_edges.frames[macro_edge]
+        first = np.where(first < 0, macro_edge, first)
+        return Walks(node, rotation, frames, short.cost[row] + price, first)
 
     def _missing_angles(
         self, rotation: Points, row: Indices, macro_edge: Indices, velocity: complex
