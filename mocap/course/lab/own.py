@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import copy
 import importlib.util
+import itertools
 import os
 import sys
 import traceback
@@ -35,6 +36,8 @@ from mocap.plain import Edge, Ground
 
 AHEAD = 1.5  # seconds that a choice looks ahead: with less, no turn is seen
 PROGRESS = {"joint_positions": "clips measured", "distance_grid": "pairs of clips compared"}
+MOST_KEPT = 2  # beam widths: a search that keeps more walks of a layer takes many times as long
+MOST_ROUNDS = 20  # choices of walks in each layer: with more, walks do not advance along the line
 OwnWalk = tuple[list[Edge], complex, complex]  # edges, and the transform of the first clip
 
 
@@ -143,9 +146,13 @@ class OwnGraph:
         Raises
         ------
         ValueError : if no walk reaches the end of the path.
+        MocapError : for functions with which the search would not end, or not before minutes have passed.
         """
         line = self.pages.points_along(np.asarray(path, float))
-        walk: OwnWalk = self.pages.Search(self.clips, self.graph, line).walk()
+        search = self.pages.Search(self.clips, self.graph, line)
+        layers = search.end / self.pages.LAYER
+        search.best_of = _bounded(search.best_of, self.pages.BEAM_WIDTH, MOST_ROUNDS * (1 + round(layers)))
+        walk: OwnWalk = search.walk()
         return walk
 
     def steer(self, command: Callable[[float], tuple[float, float]], seconds: float) -> OwnWalk:
@@ -279,6 +286,29 @@ def run(names: dict[str, Any], file: str) -> int:
     except Exception as error:  # functions that do not pass may not fit together
         print(_place_of(error, Path(file)), file=sys.stderr)
         return 2
+
+
+def _bounded(best_of: Callable[[list[Any]], list[Any]], width: int, rounds: int) -> Callable[..., list[Any]]:
+    """Return the choice of a layer, which raises where the search would go on nearly for ever.
+
+    Parameters
+    ----------
+    best_of : chooses the walks of a layer that go on.
+    width : how many these may be.
+    rounds : the largest number of choices.
+    """
+    counted = itertools.count(1)
+
+    def choose(walks: list[Any]) -> list[Any]:
+        kept = best_of(walks)
+        if len(kept) > MOST_KEPT * width:
+            problem = f"`survivors` keeps {len(kept)} walks of a layer, and the beam width is {width}."
+            raise MocapError(f"{problem} Such a search does not end in good time.")
+        if next(counted) > rounds:
+            raise MocapError(f"After {rounds} layers no walk is at the end of the line: they do not advance.")
+        return kept
+
+    return choose
 
 
 def _first_line(function: object) -> int | None:

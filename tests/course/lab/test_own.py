@@ -348,6 +348,27 @@ def test_variations_of_a_walk_take_constants_and_functions_of_the_program(circle
     refused("no constant or exercise 'BEAM'", graph.varied, BEAM=3)
 
 
+@pytest.mark.parametrize(
+    ("exercise", "function", "message"),
+    [
+        (
+            "survivors",
+            lambda stand, costs, width: np.argsort(costs),
+            "`survivors` keeps [0-9]+ walks of a layer",
+        ),
+        ("lengthen", lambda walk, edges, path, least_step: [(*edges[0][:1], *walk)], "do not advance"),
+    ],
+)
+def test_a_search_that_would_hardly_end_is_an_error(circle, by, exercise, function, message, monkeypatch):
+    monkeypatch.setattr(own, "MOST_ROUNDS", 2)
+    graph = own.OwnGraph(circle, WINDOW, BELOW, by).varied(**{exercise: function}, BEAM_WIDTH=3)
+    with pytest.raises(mocap.MocapError, match=message) as caught:
+        graph.follow(CURVE)
+    assert len(str(caught.value)) <= 200 - len(
+        "As you wrote them, your functions do not fit together. MocapError: "
+    )
+
+
 def _differs(walk, other):
     """Return whether two walks differ by a millimetre or some hundredths of a radian."""
     if len(walk) != len(other):
