@@ -369,6 +369,20 @@ def test_a_search_that_would_hardly_end_is_an_error(circle, by, exercise, functi
     )
 
 
+def test_a_walk_begins_with_the_edge_that_it_is_given(circle, by):
+    graph = own.OwnGraph(circle, WINDOW, BELOW, by)
+    search = graph.pages.Search(graph.clips, graph.graph, graph.pages.points_along(CURVE))
+    able = {walk.node for walk in search.starts()}
+    seams = [edge for edge in graph.graph.edges(keys=True) if graph.graph.edges[edge]["kind"] == "transition"]
+    first = next(edge for edge in seams if edge[0] in able)
+    edges, *_ = graph.follow(CURVE, first)
+    assert edges[0] == first
+    motion, starts = graph.walk(CURVE, first)
+    assert starts[0] == 0 and len(motion) > WINDOW
+    with pytest.raises(ValueError, match="does not have the edge"):
+        graph.follow(CURVE, ((7, 0), (8, 0), 0))
+
+
 def _differs(walk, other):
     """Return whether two walks differ by a millimetre or some hundredths of a radian."""
     if len(walk) != len(other):
