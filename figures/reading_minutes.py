@@ -25,6 +25,10 @@ WORDS = 120  # per minute
 LINE = 8 / 60  # minutes to read a line of code
 EXPERIMENT = 4.0  # minutes, with its prediction
 QUIZ = 0.5  # minutes
+READER_EXERCISE = 12.0  # minutes, as a reader of 00 to 10 counted them
+READER_EXERCISE_IN_00 = 5.0  # minutes
+READER_EXPERIMENT = 5.0  # minutes
+LAST_OF_WAY = 10  # the number of the last notebook of the main sequence
 NOT_READ = re.compile(
     r"^## Read on$.*|```.*?```|!\[.*?\]\([^)]*\)|<!--.*?-->|<[^>]*>", re.DOTALL | re.MULTILINE
 )
@@ -74,6 +78,23 @@ def contents(cells: Iterable[Any]) -> Contents:
     return Contents(words, lines, quizzes, experiments, exercises)
 
 
+def reader_hours() -> float:
+    """Return the hours of the main sequence, with a reader's own minutes for exercises and experiments."""
+    minutes = 0.0
+    for path in sorted(FOLDER.glob("*.ipynb")):
+        number = path.stem.partition("-")[0]
+        if not number.isdigit() or int(number) > LAST_OF_WAY:
+            continue
+        cells = read(path).cells
+        whole = contents(cells)
+        tags = [tag for cell in cells for tag in cell.metadata.get("tags", ())]
+        exercises = sum(tag.startswith("exercise:") for tag in tags)
+        per_exercise = READER_EXERCISE if int(number) else READER_EXERCISE_IN_00
+        minutes += whole._replace(exercises=0, experiments=0).minutes
+        minutes += exercises * per_exercise + whole.experiments * READER_EXPERIMENT
+    return minutes / 60
+
+
 def state(name: str, minutes: int) -> None:
     """Write the minutes of a notebook into it, and into the guide wherever it states them for the whole."""
     notebook = FOLDER / f"{name}.ipynb"
@@ -91,6 +112,7 @@ def main(arguments: list[str]) -> None:
         print(f"{path.stem:28}{row}{whole.minutes:9.0f}")
         if "--state" in arguments:
             state(path.stem, round(whole.minutes))
+    print(f"00 to 10 with the minutes of a reader: {reader_hours():.1f} hours")
 
 
 if __name__ == "__main__":

@@ -54,9 +54,10 @@ A room's `__init__.py` lists its files, and its `__init__.pyi` the names that it
 `tests/ROOM`.
 """
 
-from mocap._shared import faces
+from mocap._shared import faces, renamed
 
 __version__ = "0.2.0"
 
 # Each name is imported at its first use, so that `import mocap` is fast. `__init__.pyi` lists them.
+renamed.name_old_modules()  # `import mocap.lab` says where the laboratory is now
 __getattr__, __dir__, __all__ = faces.attach(__name__, __file__)

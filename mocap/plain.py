@@ -513,5 +513,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
+def __getattr__(name: str) -> Any:  # noqa: ANN401 (Python asks it for names that this file lacks)
+    from mocap._shared import renamed  # which names functions that had other names
+
+    raise renamed.missing(__name__, name)
+
+
 if __name__ == "__main__":
     sys.exit(main())

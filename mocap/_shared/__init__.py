@@ -11,9 +11,10 @@
  9. `limits`: a time limit for untrusted code
 10. `deadlines`: deadlines of searches
 11. `deprecation`: deprecated names, which warn for one version before they are removed
-12. `faces`: lazy imports of the names of a room, and suggestions for unknown names
-13. `records`: classes with named fields: printed in one line, compared and pickled by their fields
-14. `quantities`: checks of the type and the unit of numbers
-15. `arguments`: checks of the arguments of a call, including missing ones
-16. `suggestions`: the error for an unknown attribute, with a suggestion
+12. `renamed`: new names of what earlier versions called by other ones
+13. `faces`: lazy imports of the names of a room, and suggestions for unknown names
+14. `records`: classes with named fields: printed in one line, compared and pickled by their fields
+15. `quantities`: checks of the type and the unit of numbers
+16. `arguments`: checks of the arguments of a call, including missing ones
+17. `suggestions`: the error for an unknown attribute, with a suggestion
 """

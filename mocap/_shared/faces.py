@@ -12,6 +12,7 @@ from typing import Any
 
 import lazy_loader
 
+from mocap._shared import renamed
 from mocap.errors import shortened
 
 EXPORT = re.compile(r"import (\w+) as \1$", re.MULTILINE)
@@ -38,9 +39,12 @@ def attach(room: str, file: str) -> tuple[Callable[[str], Any], Callable[[], lis
         if name in names:
             return attribute(name)
         is_from_import = sys._getframe(1).f_code.co_name == FROM_IMPORT
-        if name.startswith("_") or (is_from_import and is_module(room, name)):
+        if name.startswith("_"):
             raise AttributeError(f"{room} has no '{name}'.")
-        sentence = missing_name(room, name, names)
+        sentence = renamed.sentence(room, name)
+        if not sentence and is_from_import and is_module(room, name):
+            raise AttributeError(f"{room} has no '{name}'.")
+        sentence = sentence or missing_name(room, name, names)
         raise ImportError(sentence, name=room) if is_from_import else AttributeError(sentence)
 
     return find, directory, names

@@ -15,7 +15,7 @@ from mocap.course.student_wheel import EXTRA, requirement_from, students_wheel
 from mocap.course.written import KIND, TEMPLATE, questions_of
 from mocap.errors import MocapError
 
-PAGES = ("GLOSSARY.md", "FORMULAS.md")  # the README is for teachers
+PAGES = ("GLOSSARY.md", "FORMULAS.md", "HOMEWORK.md")  # the README is for teachers
 TELLING = re.compile(r"checks\.|lab\.(bets?|quiz)\(")  # how cells begin whose outputs hold hints or outcomes
 INSTALL = 'try:\n    import mocap\nexcept ImportError:  # as in Colab\n    %pip install -q "{}"'
 MARKS = (

@@ -11,7 +11,7 @@ pruning by labels.
 """
 
 from collections import Counter
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from enum import StrEnum
 from itertools import permutations
@@ -21,7 +21,7 @@ import numpy as np
 
 from mocap._shared.collector import uncollected
 from mocap._shared.records import dataclass
-from mocap.errors import NoWalk, warn
+from mocap.errors import MocapError, NoWalk, warn
 from mocap.graphs.components import (
     NO_LABELS,
     Labels,
@@ -33,6 +33,13 @@ from mocap.graphs.components import (
     reached,
 )
 from mocap.graphs.motion_graph import MotionGraph, require_graph
+
+NOTES_NODES = range(1, 9)
+NOTES_ARROWS = (
+    *((1, 2), (2, 3), (2, 6), (3, 1), (3, 4), (4, 4)),
+    *((6, 5), (6, 7), (7, 5), (7, 8), (8, 3)),
+)
+"""The edges of the graph of the notes, after [KGP02, Fig. 4]."""
 
 
 def prune(motion_graph: MotionGraph, *, by_labels: bool = False) -> MotionGraph:
@@ -134,8 +141,16 @@ def name(labels: Labels) -> str:
     return "+".join(sorted(labels)) or "no label"
 
 
-def notes_example() -> nx.MultiDiGraph:
+def notes_example(arrows: Sequence[tuple[int, int]] = NOTES_ARROWS) -> nx.MultiDiGraph:
     """Return the eight-node graph of the notes, after [KGP02, Fig. 4]: node 5 is a dead end, node 4 a sink.
+
+    Parameters
+    ----------
+    arrows : pairs (start, end) of nodes 1 to 8; those of the notes by default. Each is a second of motion.
+
+    Raises
+    ------
+    MocapError : for other nodes, which the pictures of the course cannot draw.
 
     Examples
     --------
@@ -146,8 +161,10 @@ def notes_example() -> nx.MultiDiGraph:
     Notebook: 06-pruning
     """
     graph = nx.MultiDiGraph()
-    ends = [(1, 2), (2, 3), (2, 6), (3, 1), (3, 4), (4, 4), (6, 5), (6, 7), (7, 5), (7, 8), (8, 3)]
-    graph.add_edges_from(ends, kind="clip", frames=30, labels=NO_LABELS)
+    graph.add_edges_from(arrows, kind="clip", frames=30, labels=NO_LABELS)
+    graph.add_nodes_from(NOTES_NODES)
+    if unknown := [node for node in graph if node not in NOTES_NODES]:
+        raise MocapError(f"The graph of the notes has the nodes 1 to 8, not {unknown[0]!r:.40}.")
     return graph
 
 

@@ -104,3 +104,8 @@ def test_the_minutes_are_honest(name):
     stated = int(re.search(r"\*\*About (\d+) minutes", text)[1])
     assert abs(stated - reading_minutes.contents(read(name).cells).minutes) <= 2
     assert stated <= 95
+
+
+def test_the_guide_states_the_hours_of_a_reader_who_counted_exercises():
+    hours = re.search(r"the main sequence takes ([\d.]+) hours", (FOLDER / "README.md").read_text("utf-8"))
+    assert hours and abs(float(hours[1]) - reading_minutes.reader_hours()) < 0.15

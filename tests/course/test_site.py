@@ -20,7 +20,7 @@ from mocap.widgets import live
 from tests.bundled import bundled
 
 NAMES = ("00-quickstart", "09b-blend-window")
-PAGES = ("COMMANDS", "GLOSSARY", "FORMULAS", "PAPERS", "PROJECT", "README", "RECIPES")
+PAGES = ("COMMANDS", "GLOSSARY", "FORMULAS", "HOMEWORK", "PAPERS", "PROJECT", "README", "RECIPES")
 
 
 def course_site(tmp_path_factory):

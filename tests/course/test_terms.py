@@ -15,7 +15,7 @@ from tests.voice import TERMS
 GLOSSARY = (FOLDER / "GLOSSARY.md").read_text("utf-8")
 ENTRIES = set(re.findall(r"^## (.*)", GLOSSARY, re.MULTILINE))
 SLIDES = sorted(path.stem for path in (FOLDER / "slides").glob("*.md"))
-PAGES = ("COMMANDS.md", "GLOSSARY.md", "FORMULAS.md", "PROJECT.md", "README.md", "RECIPES.md")
+PAGES = ("COMMANDS.md", "GLOSSARY.md", "FORMULAS.md", "HOMEWORK.md", "PROJECT.md", "README.md", "RECIPES.md")
 TEACHING = ("README.md", "exam.md", "syllabus.md", "sample-marks.md")
 
 # The field's terms, by the pattern of their use in a sentence.

@@ -20,6 +20,7 @@ from functools import cache, partial
 from importlib import import_module
 from pathlib import Path
 
+from mocap._shared import renamed
 from mocap.course.check import Answers, AnswersWithheld, Check, Function, Texts
 from mocap.course.comparisons import close
 
@@ -85,6 +86,8 @@ def nearest(name: str) -> str:
 
 def __getattr__(name: str) -> Check:
     if name not in all_checks():
+        if sentence := renamed.sentence(__name__, name):
+            raise AttributeError(sentence)
         names = ", ".join(all_checks())
         raise AttributeError(f"the course has no check '{name}'; it has: {names}; {nearest(name)}")
     return all_checks()[name]

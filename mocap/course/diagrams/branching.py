@@ -174,8 +174,10 @@ def _draw_tree(ax: Axes, events: list[Event]) -> Callable[[list[Event]], list[Ar
     last = max(columns.values())
     ax.set(xlim=(first - 0.6, last + 0.6), ylim=(0.5 - max(map(len, columns)), 0.5))
     ax.set_axis_off()
-    dots = [disc(face, markeredgecolor=FATES[fate]) for fate, face in faces.items()]
-    ax.legend(dots, FATES, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=3, frameon=False)
+    happening = {"waiting", *(event.fate for event in events)}
+    named = {fate: face for fate, face in faces.items() if fate in happening}
+    dots = [disc(face, markeredgecolor=FATES[fate]) for fate, face in named.items()]
+    ax.legend(dots, named, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=3, frameon=False)
 
     def colour(shown: list[Event]) -> list[Artist]:
         fates = {walk: "waiting" for event in shown for _, walk in event.added}

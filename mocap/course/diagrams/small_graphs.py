@@ -1,7 +1,7 @@
 """Small graphs: nodes and edges on two clips, and Tarjan's search on the eight nodes of Figure 4 [KGP02]."""
 
 from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
-from itertools import pairwise
+from itertools import cycle, pairwise
 from typing import Any, NamedTuple
 
 import matplotlib.pyplot as plt
@@ -284,7 +284,8 @@ def tarjan_steps(graph: nx.MultiDiGraph) -> Callable[[int], list[Artist]]:
 
     def draw(step: int) -> list[Artist]:
         state = states[min(step, len(states) - 1)]
-        parts = {node: SOURCES[n] for n, part in enumerate(state.components) for node in part}
+        coloured = zip(state.components, cycle(SOURCES), strict=False)
+        parts = {node: colour for part, colour in coloured for node in part}
         face = dict.fromkeys(graph, UNSEEN) | dict.fromkeys(state.stack, ON_STACK) | parts
         discs.set(facecolor=[face[node] for node in graph])
         discs.set(linewidth=[4 if node == state.node else 1 for node in graph])
@@ -320,7 +321,7 @@ def _draw_stack(ax: Axes, height: int) -> tuple[list[Rectangle], list[Text]]:
 def _explain(figure: Figure, parts: int) -> None:
     """Write what the colours of the nodes mean."""
     named = {"not seen yet": UNSEEN, "on the stack": ON_STACK}
-    named |= {f"component {n + 1}, complete": SOURCES[n] for n in range(parts)}
+    named |= {f"component {n + 1}, complete": SOURCES[n % len(SOURCES)] for n in range(parts)}
     look: dict[str, Any] = {"markersize": 9, "markeredgecolor": "black"}
     keys = [disc(face, label=name, **look) for name, face in named.items()]
     keys.append(disc("white", label="the search stands here", markeredgewidth=3, **look))

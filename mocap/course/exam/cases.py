@@ -35,11 +35,8 @@ def farthest(draws: Draws) -> Cases:
     lower = draws.integer("lower", 20, 24) / 100  # metres
     leg = draws.integer("leg", 40, 44) / 100  # metres
     frames = draws.integer("frames", 5, 12)
-    body = {
-        "names": ["root", "arm", "hand", "foot"],
-        "parents": [-1, 0, 1, 0],
-        "offsets": [[0, 0, 0], [upper, 0, 0], [lower, 0, 0], [0, -leg, 0]],
-    }
+    offsets = [[0, 0, 0], [upper, 0, 0], [lower, 0, 0], [0, -leg, 0]]
+    body = {"names": ["root", "arm", "hand", "foot"], "parents": [-1, 0, 1, 0], "offsets": offsets}
     roots = f"np.linspace([3, 1, 0], [9, 1, 5], {frames})"
     clip = CLIP.format(**body, roots=roots, rotations="rotations")
     folded = f"rotations = np.tile([1.0, 0, 0, 0], ({frames}, 4, 1))\nrotations[:, 1] = [0, 0, 1, 0]\n"

@@ -266,7 +266,7 @@ def _read_function(
 
 
 def _tell_of_last_kernel(file: Path) -> None:
-    """Say which function ended the last kernel, and leave it out until it is handed in again.
+    """Print which function ended the last kernel, and leave it out until it is handed in again.
 
     Parameters
     ----------

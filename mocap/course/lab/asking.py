@@ -36,7 +36,7 @@ Bets = Mapping[str, dict[str, Any]]
 
 @dataclass(frozen=True)
 class Shown:
-    """What a cell shows: HTML, and as text what is asked.
+    """The output of a cell: HTML, and as text the question.
 
     Examples
     --------

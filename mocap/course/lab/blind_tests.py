@@ -45,7 +45,7 @@ ALT = (
 def blind_test(
     clips: Sequence[Motion], found: Transitions, window: int = 10, below: float = 0.04, seed: int = 0
 ) -> BlindTest:
-    """Let somebody choose, in twenty pairs of films, the one with a seam.
+    """Show twenty pairs of films, in each of which a reader chooses the one with a seam.
 
     A film lasts 2.6 s. The control is one of the same two clips at the same phase, without a seam; the films
     of a pair play side by side until the reader answers, with the arrow keys or by touch. Nothing is said
@@ -82,7 +82,7 @@ def blind_test(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class BlindTest(Embedded):
-    """What `blind_test` returns; a notebook shows it live, as a picture or a sentence."""
+    """The result of `blind_test`; a notebook shows it live, as a picture or a sentence."""
 
     pairs: Sequence[Pair]
     window: int

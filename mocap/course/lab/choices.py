@@ -139,9 +139,10 @@ def of_clips(clips: Sequence[Motion], window: int, at: Any) -> Choices:  # noqa:
     (0, 10, 1, 20)
     """
     clips = require_compatible(clips)
-    first, second = clips[0], clips[-1]
+    first = clips[0]
+    second = clips[-1]
     _require_short(len(first) + len(second))
-    names = "window_sums", "inner_minima"
+    names = ("window_sums", "inner_minima")
     sums, inner = slots(*names)
     if sums.yours and window <= min(map(len, clips)):
         a, b = map(pages_of(None, window).windows, (first, second))

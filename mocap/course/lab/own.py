@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import copy
 import importlib.util
+import itertools
 import os
 import sys
 import traceback
@@ -35,6 +36,8 @@ from mocap.plain import Edge, Ground
 
 AHEAD = 1.5  # seconds that a choice looks ahead: with less, no turn is seen
 PROGRESS = {"joint_positions": "clips measured", "distance_grid": "pairs of clips compared"}
+MOST_KEPT = 2  # beam widths: a search that keeps more walks of a layer takes many times as long
+MOST_ROUNDS = 20  # choices of walks in each layer: with more, walks do not advance along the line
 OwnWalk = tuple[list[Edge], complex, complex]  # edges, and the transform of the first clip
 
 
@@ -104,7 +107,7 @@ class OwnGraph:
         self.clips = require_compatible(clips)
         self.pages = pages_of(by, window, threshold)
         self.by = by
-        self._walks: dict[bytes, OwnWalk] = {}  # by paths
+        self._walks: dict[tuple[bytes, Edge | None], OwnWalk] = {}  # by paths and first edges
         if not 2 <= window <= min(map(len, self.clips)):
             raise MocapError(f"A graph takes a window of two frames up to the shortest clip, got {window}.")
         self.transitions = self.pages.find_transitions(self.clips)
@@ -133,19 +136,26 @@ class OwnGraph:
         variation.pages = pages_of(self.by, self.pages.K, self.pages.BELOW, **changes)
         return variation
 
-    def follow(self, path: ArrayLike) -> OwnWalk:
+    def follow(self, path: ArrayLike, first: Edge | None = None) -> OwnWalk:
         """Find a walk along a path: all walks advance layer by layer, as in notebook 08 [KGP02, Eq. 9].
 
         Parameters
         ----------
         path : corners on the ground (x, z), shape (N, 2), metres.
+        first : the edge with which the walk begins, such as the reader's seam; by default any.
 
         Raises
         ------
-        ValueError : if no walk reaches the end of the path.
+        ValueError : if no walk reaches the end of the path, or the graph has no such edge.
+        MocapError : for functions with which the search would not end, or not before minutes have passed.
         """
         line = self.pages.points_along(np.asarray(path, float))
-        walk: OwnWalk = self.pages.Search(self.clips, self.graph, line).walk()
+        search = self.pages.Search(self.clips, self.graph, line)
+        layers = search.end / self.pages.LAYER
+        if first is not None:
+            search.starts = _starts_by(search, first)
+        search.best_of = _bounded(search.best_of, self.pages.BEAM_WIDTH, MOST_ROUNDS * (1 + round(layers)))
+        walk: OwnWalk = search.walk()
         return walk
 
     def steer(self, command: Callable[[float], tuple[float, float]], seconds: float) -> OwnWalk:
@@ -184,12 +194,12 @@ class OwnGraph:
         onward = rotation * search.roots[clip][frame:] + translation
         return np.concatenate([start, search.tracks[edge], onward])
 
-    def walk(self, path: ArrayLike) -> tuple[Motion, list[int]]:
+    def walk(self, path: ArrayLike, first: Edge | None = None) -> tuple[Motion, list[int]]:
         """Find a walk along a path, and play it.
 
         Parameters
         ----------
-        path : corners on the ground (x, z), shape (N, 2), metres.
+        path, first : as for `follow`.
 
         Returns
         -------
@@ -197,11 +207,11 @@ class OwnGraph:
 
         Raises
         ------
-        ValueError : if no walk reaches the end of the path.
+        ValueError : if no walk reaches the end of the path, or the graph has no such edge.
         """
-        key = np.asarray(path, float).tobytes()
+        key = (np.asarray(path, float).tobytes(), first)
         if key not in self._walks:
-            self._walks[key] = self.follow(path)
+            self._walks[key] = self.follow(path, first)
         followed = self._walks[key]
         edges = [self.graph.edges[edge] for edge in followed[0]]
         starts = np.cumsum([0, *(edge["frames"] for edge in edges)]).tolist()
@@ -279,6 +289,41 @@ def run(names: dict[str, Any], file: str) -> int:
     except Exception as error:  # functions that do not pass may not fit together
         print(_place_of(error, Path(file)), file=sys.stderr)
         return 2
+
+
+def _starts_by(search: Any, first: Edge) -> Callable[[], list[Any]]:  # noqa: ANN401 (of a copied module)
+    """Return the starts of a search whose walks all begin with one edge."""
+    every_start = search.starts
+
+    def starts() -> list[Any]:
+        if not search.graph.has_edge(*first):
+            raise ValueError("The pruned graph does not have the edge with which the walk should begin.")
+        return [search.lengthen(walk, first) for walk in every_start() if walk.node == first[0]]
+
+    return starts
+
+
+def _bounded(best_of: Callable[[list[Any]], list[Any]], width: int, rounds: int) -> Callable[..., list[Any]]:
+    """Return the choice of a layer, which raises where the search would go on nearly for ever.
+
+    Parameters
+    ----------
+    best_of : chooses the walks of a layer that go on.
+    width : how many these may be.
+    rounds : the largest number of choices.
+    """
+    counted = itertools.count(1)
+
+    def choose(walks: list[Any]) -> list[Any]:
+        kept = best_of(walks)
+        if len(kept) > MOST_KEPT * width:
+            problem = f"`survivors` keeps {len(kept)} walks of a layer, and the beam width is {width}."
+            raise MocapError(f"{problem} Such a search does not end in good time.")
+        if next(counted) > rounds:
+            raise MocapError(f"After {rounds} layers no walk is at the end of the line: they do not advance.")
+        return kept
+
+    return choose
 
 
 def _first_line(function: object) -> int | None:

@@ -151,7 +151,9 @@ def cubic_weights() -> Array:
 def blend(first: tuple[Array, Array], second: tuple[Array, Array]) -> tuple[Array, Array]:
     """Blend two windows, by `mix`, which takes motions: here of a chain of as many joints."""
     joints = first[1].shape[1]
-    chain = Skeleton(list(map(str, range(joints))), np.arange(-1, joints - 1), np.zeros((joints, 3)))
+    names = [str(joint) for joint in range(joints)]
+    parents = np.arange(-1, joints - 1)
+    chain = Skeleton(names, parents, np.zeros((joints, 3)))
     roots, rotations = mix(Motion(chain, *first, FPS), Motion(chain, *second, FPS), cubic_weights())
     return np.asarray(roots), np.asarray(rotations)
 

@@ -60,7 +60,7 @@ class Pair(records.NamedTuple):
 def pair() -> Pair:
     """Return the seam that the reader has chosen in notebook 00, or the best one, and print it.
 
-    Notebooks: 02-matching to 07-walks-and-search
+    Notebooks: 02-matching to 08-path-synthesis
     """
     seams = _seams()
     number = _chosen(len(seams))

@@ -112,7 +112,7 @@ def inspector(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Inspector(Embedded):
-    """What `inspector` returns; a notebook shows it live, as a picture of its panels, or as a sentence.
+    """The result of `inspector`; a notebook shows it live, as a picture of its panels, or as a sentence.
 
     Examples
     --------
@@ -277,10 +277,10 @@ def packed_clip(motion: Motion, offset: int, needed: Mask) -> tuple[dict[str, An
     standing = np.zeros((len(SIDES), len(motion)), int)
     for name, marks in with_contacts(motion).contacts.items():
         standing[SIDES.index(motion.skeleton.side(motion.skeleton.index(name)))] |= marks
-    _, left, right = standing
+    _, left_foot, right_foot = standing
     description: dict[str, Any] = {"name": motion.name, "frames": len(motion)}
     description |= {"channels": numbers.shape[1], "offset": offset, "origin": origin[[0, 2]].tolist()}
-    description["plants"] = "".join(map(str, 2 * left + 4 * right))
+    description["plants"] = "".join(map(str, 2 * left_foot + 4 * right_foot))
     return description, planes.tobytes()
 
 

@@ -348,6 +348,41 @@ def test_variations_of_a_walk_take_constants_and_functions_of_the_program(circle
     refused("no constant or exercise 'BEAM'", graph.varied, BEAM=3)
 
 
+@pytest.mark.parametrize(
+    ("exercise", "function", "message"),
+    [
+        (
+            "survivors",
+            lambda stand, costs, width: np.argsort(costs),
+            "`survivors` keeps [0-9]+ walks of a layer",
+        ),
+        ("lengthen", lambda walk, edges, path, least_step: [(*edges[0][:1], *walk)], "do not advance"),
+    ],
+)
+def test_a_search_that_would_hardly_end_is_an_error(circle, by, exercise, function, message, monkeypatch):
+    monkeypatch.setattr(own, "MOST_ROUNDS", 2)
+    graph = own.OwnGraph(circle, WINDOW, BELOW, by).varied(**{exercise: function}, BEAM_WIDTH=3)
+    with pytest.raises(mocap.MocapError, match=message) as caught:
+        graph.follow(CURVE)
+    assert len(str(caught.value)) <= 200 - len(
+        "As you wrote them, your functions do not fit together. MocapError: "
+    )
+
+
+def test_a_walk_begins_with_the_edge_that_it_is_given(circle, by):
+    graph = own.OwnGraph(circle, WINDOW, BELOW, by)
+    search = graph.pages.Search(graph.clips, graph.graph, graph.pages.points_along(CURVE))
+    able = {walk.node for walk in search.starts()}
+    seams = [edge for edge in graph.graph.edges(keys=True) if graph.graph.edges[edge]["kind"] == "transition"]
+    first = next(edge for edge in seams if edge[0] in able)
+    edges, *_ = graph.follow(CURVE, first)
+    assert edges[0] == first
+    motion, starts = graph.walk(CURVE, first)
+    assert starts[0] == 0 and len(motion) > WINDOW
+    with pytest.raises(ValueError, match="does not have the edge"):
+        graph.follow(CURVE, ((7, 0), (8, 0), 0))
+
+
 def _differs(walk, other):
     """Return whether two walks differ by a millimetre or some hundredths of a radian."""
     if len(walk) != len(other):

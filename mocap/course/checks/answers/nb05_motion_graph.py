@@ -149,7 +149,8 @@ def mistake_begins_after_window(points: list[list[int]], links: list[Link], wind
 
 def mistake_clips_joined(points: list[list[int]], links: list[Link], window: int) -> object:
     """Add an edge from the end of each clip to the start of the next clip."""
-    joined = [(clip, points[clip][-1], clip + 1, -window) for clip in range(len(points) - 1)]
+    lasts = [frames[-1] for frames in points[:-1]]
+    joined = [(clip, last, clip + 1, -window) for clip, last in enumerate(lasts)]
     return right_successors_of(points, [*links, *joined], window)
 
 
@@ -197,7 +198,7 @@ def mistake_frames_alone(points: list[list[int]], links: list[Link], window: int
 
 
 def mistake_transitions_replace_stretches(points: list[list[int]], links: list[Link], window: int) -> object:
-    """Let each transition replace all edges that already leave its node."""
+    """Replace all edges that already leave a node by each transition that leaves it."""
     following = right_successors_of(points, [], window)
     for source, leave, target, enter in links:
         following[source, leave] = [(target, enter + window)]
@@ -225,7 +226,7 @@ def mistake_each_successor_once(points: list[list[int]], links: list[Link], wind
 
 
 def mistake_same_clip(points: list[list[int]], links: list[Link], window: int) -> object:
-    """Let each transition enter the clip that it leaves."""
+    """Lead each transition into the clip that it leaves."""
     return right_successors_of(
         points, [(source, leave, source, enter) for source, leave, _, enter in links], window
     )

@@ -129,7 +129,7 @@ def mistake_frame_late(points: Points, walked: int, goal: complex, frames: int) 
 
 
 def mistake_past_the_goal(points: Points, walked: int, goal: complex, frames: int) -> object:
-    """Let the wanted point go on at constant velocity beyond the goal."""
+    """Compare with a point that goes on at constant velocity beyond the goal."""
     frame_numbers = walked + np.arange(1, len(points) + 1)
     wanted = goal * frame_numbers / frames
     return float((np.abs(points - wanted) ** 2).sum())

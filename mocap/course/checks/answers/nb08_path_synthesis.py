@@ -256,8 +256,7 @@ def mistake_rooted_sum(walk: Walk, ahead: Points, line: Line, limit: float) -> o
     return min(float(np.sqrt((distances_of(walk, ahead, line) ** 2).sum())), limit)
 
 
-def mistake_rotated_last(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
-    """Translate all points by the translation before rotating them: again rotation · (p + translation)."""
+def mistake_rotated_backwards(walk: Walk, ahead: Points, line: Line, limit: float) -> object:
+    """Rotate the points by the opposite angle, and then translate them."""
     rotation, translation, along, cost = walk
-    moved = ahead + translation
-    return right_look_ahead((rotation, 0, along, cost), moved, line, limit)
+    return right_look_ahead((rotation.conjugate(), translation, along, cost), ahead, line, limit)

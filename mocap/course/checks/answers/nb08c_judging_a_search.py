@@ -63,7 +63,8 @@ def mistake_mean_of_frames(track: Array, path: PathAt, along: float, least_step:
 def mistake_distances(track: Array, path: PathAt, along: float, least_step: float) -> object:
     """Return the sum of the distances in metres, with the right arc length."""
     reached = along + np.cumsum(np.maximum(np.hypot(*np.diff(track, axis=0).T), least_step))
-    return float(np.hypot(*(track[1:] - path(reached)).T).sum()), float(reached[-1])
+    distances = np.hypot(*(track[1:] - path(reached)).T)
+    return float(distances.sum()), float(reached[-1])
 
 
 # ---- lengthen

@@ -201,7 +201,8 @@ def mistake_gap_for_velocity(gap: Array, alpha: Array) -> object:
 def mistake_slope_for_curvature(gap: Array, alpha: Array) -> object:
     """Return α̇ Δx as the position term."""
     _, velocity_term = right_added_terms(gap, alpha)
-    return (alpha[2:] - alpha[:-2])[:, None] / 2 * gap[1:-1], velocity_term
+    slope = (alpha[2:] - alpha[:-2]) / 2
+    return slope[:, None] * gap[1:-1], velocity_term
 
 
 def mistake_curvature_negated(gap: Array, alpha: Array) -> object:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Mask
+from mocap._shared.arrays import Array, Mask, Points
 from mocap.course.checks.answers.common import Arguments
 
 # ---- arc_length
@@ -58,9 +58,15 @@ def draw_carry(rng: np.random.Generator) -> Arguments:
     return rng.normal(size=(count, 2)), *rng.normal(size=(2, count, 3)) * [1.0, 2.0, 2.0]
 
 
+def on_old_carts(points: Array, old: Array) -> Points:
+    """Transform points into the coordinates of their carts on the old path, as complex numbers z + ix."""
+    from_carts = points @ [1j, 1] - old @ [0, 1j, 1]
+    return np.asarray(np.exp(-1j * old[:, 0]) * from_carts)
+
+
 def right_carry(points: Array, old: Array, new: Array) -> Array:
     """Carry points from cart to cart, as complex numbers z + ix."""
-    on_cart = np.exp(-1j * old[:, 0]) * (points @ [1j, 1] - old @ [0, 1j, 1])
+    on_cart = on_old_carts(points, old)
     ground = np.exp(1j * new[:, 0]) * on_cart + new @ [0, 1j, 1]
     return np.stack([ground.imag, ground.real], axis=1)
 
@@ -101,8 +107,7 @@ def mistake_first_old_cart(points: Array, old: Array, new: Array) -> object:
 
 def mistake_on_the_cart(points: Array, old: Array, new: Array) -> object:
     """Return the points in the coordinates of the old cart."""
-    on_cart = np.exp(-1j * old[:, 0]) * (points @ [1j, 1] - old @ [0, 1j, 1])
-    ground = on_cart
+    ground = on_old_carts(points, old)
     return np.stack([ground.imag, ground.real], axis=1)
 
 

@@ -46,7 +46,7 @@ def mistake_diagonal_counted_once(diagonal: Array, best: Array, costs: Array) ->
 
 
 def mistake_rolled(diagonal: Array, best: Array, costs: Array) -> object:
-    """Let the last column's best sum enter column 0 by a diagonal step."""
+    """Enter column 0 by a diagonal step from the best sum of the last column."""
     diagonal_sums = 2 * costs + np.roll(best, 1)
     return np.array(
         [
@@ -76,7 +76,7 @@ def mistake_two_steps_down(diagonal: Array, best: Array, costs: Array) -> object
 
 
 def mistake_right_from_above(diagonal: Array, best: Array, costs: Array) -> object:
-    """Let a step to the right add its cost to the diagonal sum of the row above, one column to the left."""
+    """Add the cost of a step to the right to the diagonal sum of the row above, one column to the left."""
     diagonal_sums = 2 * costs + shifted(best)
     return np.array(
         [diagonal_sums, np.minimum(np.minimum(diagonal_sums, costs + diagonal), costs + shifted(diagonal))]

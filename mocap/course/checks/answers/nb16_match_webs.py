@@ -119,7 +119,7 @@ def inverses(distances: Array) -> Array:
 
 
 def hit_gets_all(distances: Array, weights: Array) -> Array:
-    """Give the first sample the weight 1 and the others 0 if its distance is 0; else return the weights."""
+    """Return the weights 1, 0, 0, ... if the first sample has the distance 0, and else the right ones."""
     return np.eye(len(distances))[0] if distances[0] == 0 else weights
 
 

@@ -14,7 +14,8 @@ def draw_standardise(rng: np.random.Generator) -> Arguments:
     sizes = rng.integers(2, 5, rng.integers(2, 4))
     stops = np.cumsum(sizes)
     groups = [slice(int(stop - size), int(stop)) for size, stop in zip(sizes, stops, strict=True)]
-    spreads = np.concatenate([10 ** rng.uniform(-1, 1) * rng.uniform(0.3, 3, size) for size in sizes])
+    units = [10 ** rng.uniform(-1, 1) * rng.uniform(0.3, 3, size) for size in sizes]
+    spreads = np.concatenate(units)
     values = rng.normal(scale=spreads, size=(int(rng.integers(20, 40)), int(stops[-1]))) + 3 * spreads
     return values, groups, [float(weight) for weight in rng.uniform(0.3, 0.8, len(sizes))]
 

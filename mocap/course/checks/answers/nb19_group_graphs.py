@@ -71,7 +71,8 @@ def draw_lay_group(rng: np.random.Generator) -> Arguments:
     """Draw a group, and the same one rotated, translated and disturbed."""
     count = int(rng.integers(5, 10))
     turn = np.exp(1j * rng.uniform(-3, 3))
-    pa = np.asarray(rng.normal(0, 1.5, (count, 2)) @ [1, 1j] + complex(*rng.normal(0, 5, 2)), complex)
+    about_origin = rng.normal(0, 1.5, (count, 2)) @ [1, 1j]
+    pa = np.asarray(about_origin + complex(*rng.normal(0, 5, 2)), complex)
     va = np.asarray(1.1 + rng.normal(0, 0.3, (count, 2)) @ [1, 1j], complex)
     shaken = rng.normal(0, 0.5, (2, count, 2)) @ [1, 1j]
     move = complex(*rng.normal(0, 6, 2))

@@ -44,7 +44,7 @@ def cheapest_alone(walks: Waiting) -> Waiting:
 
 
 class Variant(NamedTuple):
-    """What students change in the search; the defaults are those of the right one.
+    """The parts of the search that students change; the defaults are those of the right one.
 
     Attributes
     ----------
