@@ -26,7 +26,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.lines import Line2D
-from matplotlib.patches import Rectangle
+from matplotlib.patches import Patch, Rectangle
 from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
 from numpy.lib.stride_tricks import sliding_window_view
@@ -191,7 +191,7 @@ def _draw_box(ax: Axes, place: Place, number: str, colour: str) -> None:
     corner = (x, y - HALF_BOX)
     box = Rectangle(corner, BOX, 2 * HALF_BOX, facecolor=colour, edgecolor="white", lw=0.5)
     ax.add_patch(box)
-    ax.text(x + BOX / 2, y, number, ha="center", va="center", fontsize=7, color="white", zorder=4)
+    ax.text(x + BOX / 2, y, number, ha="center", va="center", fontsize=9, color="white", zorder=4)
 
 
 def _draw_transition(ax: Axes, source: Place, target: Place) -> None:
@@ -214,7 +214,7 @@ def draw_motion_file() -> Figure:
         lines = path.read_text().splitlines()
     figure = plt.figure(figsize=(9.5, 4.2))
     _write_lines(figure.add_axes((0.01, 0, 0.55, 1)), lines)
-    _draw_leg(figure.add_axes((0.64, 0.12, 0.35, 0.82)), leg)
+    _draw_leg(figure.add_axes((0.69, 0.12, 0.30, 0.82)), leg)
     return figure
 
 
@@ -241,7 +241,7 @@ def _write_lines(ax: Axes, lines: list[str]) -> None:
         colour = CURVES[0] if "CHANNELS" in line else colour
         height = 0.95 - 0.9 * number / (len(lines) - 1)
         spaced = line.replace("\t", "   ")
-        ax.text(0, height, spaced, family="monospace", fontsize=8.5, color=colour, va="center")
+        ax.text(0, height, spaced, family="monospace", fontsize=9.4, color=colour, va="center")
 
 
 def _draw_leg(ax: Axes, leg: Motion) -> None:
@@ -442,12 +442,12 @@ def _draw_two_poses(figure: Figure, panel: int, windows: tuple[Motion, Motion], 
 
 def draw_angles() -> Figure:
     """Draw the short turn between two headings, and the turn by the means of their angles."""
-    figure = Figure(figsize=(7, 3.7), layout="constrained")
+    figure = Figure(figsize=(7, 4.4), layout="constrained")
     slerp_axes, mean_axes = figure.subplots(1, 2)
     _draw_turn(slerp_axes, 20.0, CURVES[0])
     _draw_turn(mean_axes, -340.0, CURVES[1])
-    slerp_axes.set_title("slerp: 20° to the left", fontsize=11)
-    mean_axes.set_title("mean of the angles: 340° to the right", fontsize=11)
+    slerp_axes.set_title("slerp:\n20° to the left")
+    mean_axes.set_title("mean of the angles:\n340° to the right")
     return figure
 
 
@@ -474,6 +474,9 @@ def draw_dying_walks() -> Figure:
     ax = plt.figure(figsize=(8, 3.6), layout="constrained").add_subplot()
     image = plotting.walk_rows(rows, highest=185, ax=ax)
     ax.figure.colorbar(image, ax=ax, label="D of a transition")
+    played_on = Patch(color=plotting.FLOOR, label="the clip goes on")
+    ended = Patch(facecolor="white", edgecolor=plotting.QUIET, label="the walk has ended")
+    ax.legend(handles=[played_on, ended], frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1), ncols=2)
     return plt.gcf()
 
 
@@ -567,6 +570,8 @@ def draw_steered() -> Figure:
         tip = _ahead((x, z), headings[frame], 0.9)
         ax.annotate("", tip, (x, z), arrowprops=arrow)
         ax.plot(*zip((x, z), tip, strict=True), color=ASKED, linewidth=0)  # the axes make room for lines only
+    ax.plot([], [], color=ASKED, linewidth=3, label="a heading that\nis commanded")
+    ax.legend(frameon=False, loc="center left", bbox_to_anchor=(1, 0.5))
     return figure
 
 
@@ -799,6 +804,7 @@ def _draw_futures(ax: Axes, table: PoseDatabase, clip_of: Indices) -> None:
         path = _path_ahead(table, table.values[frame])
         ax.plot(*path.T, "o-", color=SOURCES[clip_of[frame]], markersize=4)
     ax.plot(*_path_ahead(table, query)[1:].T, "o", color=ASKED, label="asked for")
+    ax.set(xticks=[0.5, 0, -0.5], yticks=[0, 0.5])
     ax.set(aspect="equal", xlabel="to the left (m)", ylabel="ahead (m)", xlim=(0.7, -0.5), ylim=(-0.1, 0.95))
     ax.legend(frameon=False, fontsize=8)
 
@@ -838,8 +844,8 @@ def draw_groups() -> Figure:
     for ax, paths in ((plan, planned_paths), (steered, steered_paths)):
         plotting.draw_group_plan(paths, scene.points, scene.discs, ax=ax)
         ax.set(xlim=(10, -10), ylim=(-3, 23), ylabel="")
-    plan.set_title("planned")
-    steered.set_title("steered")
+    plan.set_title("planned to goal 1")
+    steered.set_title("steered to goal 1")
     return figure
 
 

@@ -50,15 +50,18 @@ Transitions = list[tuple[int, int, int, int, float, Transform]]  # clip, frame, 
 
 def rotate(q: Array, v: Array) -> Array:
     """Rotate vectors v (..., 3) by unit quaternions q = (w, u) (..., 4): v + 2w u × v + 2 u × (u × v)."""
-    w, u = q[..., :1], q[..., 1:]
+    w = q[..., :1]
+    u = q[..., 1:]
     across = 2 * np.cross(u, v)
     return np.asarray(v + w * across + np.cross(u, across))
 
 
 def multiply(p: Array, q: Array) -> Array:
     """Multiply quaternions (..., 4): the rotation q, followed by the rotation p."""
-    w, u = p[..., :1], p[..., 1:]
-    s, v = q[..., :1], q[..., 1:]
+    w = p[..., :1]
+    u = p[..., 1:]
+    s = q[..., :1]
+    v = q[..., 1:]
     real = w * s - (u * v).sum(-1, keepdims=True)
     imaginary = w * v + s * u + np.cross(u, v)
     return np.concatenate([real, imaginary], -1)

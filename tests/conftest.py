@@ -3,6 +3,7 @@
 import os
 import shlex
 import sys
+import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -143,8 +144,14 @@ def no_figure_stays_open() -> Iterator[None]:
 
 
 @pytest.fixture
-def run(capsys: pytest.CaptureFixture[str]) -> Callable:
+def run(
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path_factory: pytest.TempPathFactory,
+) -> Callable:
     """Type a line after `mocap`, which gives a status; return what it says."""
+    # A page that a command opens stays for its reader, but not that of a test.
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path_factory.mktemp("opened")))
     from mocap.cli.main import main  # not before coverage is measured
 
     def typed(line: str, status: int = 0) -> object:

@@ -235,7 +235,17 @@ def execute(notebook: Any, path: Path, seconds: int = 120) -> None:  # noqa: ANN
     try:
         client.execute(env={**os.environ, "MOCAP_MINE": ""})
     except CellExecutionError as error:
-        raise MocapError(f"{path}, cell {started[-1]}: {error.ename}: {error.evalue:.99}") from error
+        said = _error_of(notebook.cells[started[-1]]) or f"{error.ename}: {error.evalue}"
+        raise MocapError(f"{path}, cell {started[-1]}: {said:.120}") from error
+
+
+def _error_of(cell: Any) -> str:  # noqa: ANN401
+    """Return the name and the message of the last error among a cell's outputs.
+
+    The kernel's reply names no error if the code ran, but its result could not be displayed.
+    """
+    errors = [output for output in cell.outputs if output.output_type == "error"]
+    return f"{errors[-1].ename}: {errors[-1].evalue}" if errors else ""
 
 
 def settle(notebook: Any) -> None:  # noqa: ANN401

@@ -31,15 +31,16 @@ from mocap.files.role_maps import are_packed_roles, packed_roles, unpacked_roles
 MOST_FRAMES = 2**31  # of a clip
 NEAR_FRAMES = 2  # frames by which the resampled length of a clip may differ from its duration
 FASTEST = 1e6  # frames per second
+CLIPS = ("C",)  # the shape of an array with an entry for each of C clips
+TEXTS = (str, CLIPS)
 # The arrays of a file for C clips and O origins.
-# reads: statement: a table
 LAYOUT: Layout = {
     "fps": (float, ()),
-    "names": (str, ("C",)),
-    "frames": (int, ("C",)),  # of each clip
-    "fingerprints": (str, ("C",)),
+    "names": TEXTS,
+    "frames": (int, CLIPS),  # of each clip
+    "fingerprints": TEXTS,
     "origins": (str, ("O",)),
-    "roles": (str, ("C",)),  # of the joints of each clip, from `packed_roles`
+    "roles": TEXTS,  # of the joints of each clip, from `packed_roles`
 }
 
 
@@ -162,7 +163,7 @@ def load_references(
 
 
 def _with_stored_labels(clips: Sequence[Motion], references: ClipReferences) -> list[Motion]:
-    """Give clips the labels that are stored, which replace others; those without keep theirs."""
+    """Return clips with the stored labels, which replace others; those without keep theirs."""
     rows: dict[str, list[LabelRow]] = {}
     for name, text in zip(references.names, references.origins, strict=False):
         origin = stored_options(text)
@@ -172,7 +173,7 @@ def _with_stored_labels(clips: Sequence[Motion], references: ClipReferences) -> 
 
 
 def with_stored_roles(clips: Sequence[Motion], references: ClipReferences) -> list[Motion]:
-    """Give the joints of clips the roles that are stored, which replace others; those without keep theirs."""
+    """Return clips whose joints have the stored roles, which replace others; those without keep theirs."""
     chosen = []
     for clip, text in itertools.zip_longest(clips, references.roles):
         stored = unpacked_roles(text) if text else {}

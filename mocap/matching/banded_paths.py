@@ -46,13 +46,15 @@ class BandedPath(NamedTuple):
         row = np.clip(np.asarray(rows, float), 0, last_row)
         column = np.clip(np.asarray(columns, float), 0, last_column)
         above = row.astype(np.intp)
-        left = column.astype(np.intp)
+        first_column = column.astype(np.intp)
         below = np.minimum(above + 1, last_row)
-        right = np.minimum(left + 1, last_column)
+        next_column = np.minimum(first_column + 1, last_column)
         row_part = row - above
-        column_part = column - left
-        upper = self._at_cells(above, left) * (1 - column_part) + self._at_cells(above, right) * column_part
-        lower = self._at_cells(below, left) * (1 - column_part) + self._at_cells(below, right) * column_part
+        column_part = column - first_column
+        first_upper = self._at_cells(above, first_column)
+        first_lower = self._at_cells(below, first_column)
+        upper = first_upper * (1 - column_part) + self._at_cells(above, next_column) * column_part
+        lower = first_lower * (1 - column_part) + self._at_cells(below, next_column) * column_part
         return np.asarray(upper * (1 - row_part) + lower * row_part)
 
     def _at_cells(self, rows: Indices, columns: Indices) -> Array:

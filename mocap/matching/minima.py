@@ -45,7 +45,8 @@ from mocap.matching.tuned import TUNED
 AT_ONCE = 1024  # pairs aligned at a time, to limit the memory
 
 # Offsets (rows, columns) from an entry to its neighbours, in row-major order: the first four precede it.
-NEIGHBOURS = ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1))
+PRECEDING = ((-1, -1), (-1, 0), (-1, 1), (0, -1))
+NEIGHBOURS = PRECEDING + tuple((-row, -column) for row, column in reversed(PRECEDING))
 
 
 def local_minima(grid: ArrayLike, below: float = np.inf, *, equal: float = EQUAL) -> Indices:

@@ -88,7 +88,8 @@ def draw_body(
     body = LineCollection(lines, colors=[colour or COLOURS[side] for side in sides], **look)
     ax.add_collection(body)
     if head is not None:
-        ax.plot(*points[head_joints(skeleton)[-1:]].T, "o", **({"color": colour or COLOURS["middle"]} | head))
+        dot = {"color": colour or COLOURS["middle"]} | head
+        ax.plot(*points[head_joints(skeleton)[-1:]].T, "o", **dot)
     return body
 
 

@@ -49,12 +49,34 @@ def diamonds(marks: ArrayLike, yaw: float = 0.0) -> Array:
     return np.stack([corner_x, np.zeros_like(corner_x), corner_z], axis=-1)
 
 
+def boxes_with(boxes: ArrayLike, moved: ArrayLike) -> Array:
+    """Return boxes at each translation of the bodies that use them, the lowest and the highest corners.
+
+    Parameters
+    ----------
+    boxes : shape (N, 6), x, y and z of the lowest corner, and of the highest one, metres.
+    moved : translations, shape (3,) or (M, 3), metres. Equal ones count once.
+
+    Returns
+    -------
+    The corners, shape (K, 2, 3), metres.
+
+    Examples
+    --------
+    >>> boxes_with([[0, 0, 0, 1, 0.2, 1]], [[0, 0, 0], [2, 0, 0], [0, 0, 0]]).tolist()
+    [[[0.0, 0.0, 0.0], [1.0, 0.2, 1.0]], [[2.0, 0.0, 0.0], [3.0, 0.2, 1.0]]]
+    """
+    ends = np.reshape(np.asarray(boxes, float), (-1, 2, 3))
+    shifts = np.unique(np.reshape(np.asarray(moved, float), (-1, 3)), axis=0)
+    return np.asarray((shifts[:, None, None] + ends).reshape(-1, 2, 3))
+
+
 def box_faces(boxes: ArrayLike, eye: ArrayLike) -> list[tuple[int, Array]]:
     """List the faces of boxes that an eye sees, the boxes from the farthest to the nearest.
 
     Parameters
     ----------
-    boxes : shape (N, 6), x, y and z of the lowest corner, and of the highest one, metres.
+    boxes : shape (N, 6) or (N, 2, 3), x, y and z of the lowest corner, and of the highest one, metres.
     eye : the position of the eye, shape (3,), metres.
 
     Returns

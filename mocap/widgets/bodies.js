@@ -141,7 +141,7 @@ export function webgl(canvas, settings) {
  * @param {WebGL2RenderingContext} gl
  * @param {string[]} shaders
  */
-function program(gl, [vertex, fragment]) {
+export function program(gl, [vertex, fragment]) {
   const made = gl.createProgram();
   const texts = new Map([
     [gl.VERTEX_SHADER, vertex],

@@ -19,7 +19,7 @@ from PIL import Image, ImageDraw, ImageFont
 from scipy.ndimage import gaussian_filter1d
 
 from mocap._shared.arrays import Array
-from mocap.plotting.props import box_faces, diamonds, rims
+from mocap.plotting.props import box_faces, boxes_with, diamonds, rims
 from mocap.plotting.style import FLOOR, QUIET
 from mocap.widgets.shaded_picture import GROUND, SKY, YAW, ShadedPicture, blend
 from mocap.widgets.walk_figure import capsules_at
@@ -150,11 +150,19 @@ class FilmedScene:
             page.line(centre + np.stack([ends, zeros, offsets], axis=-1), inks, 1)
             page.line(centre + np.stack([offsets, zeros, ends], axis=-1), inks, 1)
 
-    def draw_props(self, page: ShadedPicture) -> None:
-        """Draw the discs on the ground and the boxes, whose faces differ in brightness."""
+    def draw_props(self, page: ShadedPicture, moved: ArrayLike = (0.0, 0.0, 0.0)) -> None:
+        """Draw the discs on the ground and the boxes, whose faces differ in brightness.
+
+        Parameters
+        ----------
+        page : the picture.
+        moved : the translations of the bodies, shape (3,) or (N, 3), metres: each has its boxes with it.
+        """
+        boxes = boxes_with(self.scene["boxes"], moved)
+        page.boxes = list(boxes)
         for rim in rims(self.scene["obstacles"]):
             page.area(rim, to_rgb(QUIET))
-        for axis, corners in box_faces(self.scene["boxes"], page.eye):
+        for axis, corners in box_faces(boxes, page.eye):
             page.area(corners, blend(QUIET, SKY, BRIGHTNESS[axis]))
 
     def cell(self, reach: int) -> int:

@@ -355,6 +355,15 @@ class Player {
     this.update();
   }
 
+  // The boxes of the scene, with each character that is beside where it walks.
+  boxes() {
+    const { boxes = [] } = this.scene;
+    const places = new Map(this.characters.map(({ away }) => [String(away), away]));
+    return [...places.values()].flatMap((away) =>
+      boxes.map((box) => box.map((value, c) => value + away[c % 3])),
+    );
+  }
+
   /** @param {boolean} playing */
   toggle(playing = !this.playing) {
     this.playing = playing;
@@ -393,7 +402,7 @@ class Player {
   /** @param {number} seconds */
   draw(seconds = 0) {
     if (this.chase) this.swing(seconds);
-    const { asked, obstacles, boxes, sides, marks } = this.scene;
+    const { asked, obstacles, sides, marks } = this.scene;
     const { drawn, pen } = this.hand;
     const dark = isDark();
     const palette = dark ? DARK : LIGHT;
@@ -405,7 +414,7 @@ class Player {
       drawn,
       pen: pen ? drawn[drawn.length - 1] : null,
       obstacles,
-      boxes,
+      boxes: this.boxes(),
       sides,
       marks,
       palette,

@@ -176,7 +176,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
         `steering.Followed.off`. Beyond 15 cm, the path of the motion is red.
     discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
     boxes : things such as a stone or a table, shape (N, 6), x, y and z of the lowest corner, and of the
-        highest one, in metres. They are drawn behind the bodies.
+        highest one, in metres. Bodies that are placed side by side have a copy each.
     positions : the joint positions of each motion, shape (F, J, 3), metres, by default those of
         `body.joint_positions`.
     follow : whether the camera follows the first character.

@@ -1,7 +1,7 @@
 // The bodies of a player: shaded capsules, whose positions follow from the joints alone. All pictures of a page share
 // one canvas for them, because browsers limit the number with WebGL. Without WebGL, `player_picture.js` draws strokes.
 
-import { Bodies, SIZE, inner, perspective, webgl, writeCapsule } from "./bodies.js";
+import { Bodies, SIZE, inner, perspective, program, webgl, writeCapsule } from "./bodies.js";
 import { NEAR, positionOf } from "./player_picture.js";
 
 /**
@@ -16,6 +16,16 @@ import { NEAR, positionOf } from "./player_picture.js";
 
 const SUN = [-0.45, 0.78, 0.44]; // to the right, up and back, seen from the camera's side
 const SHADOW = 0.3; // how dark a shadow is
+// The faces of a box as a strip of triangles. The bits of three numbers say at which corners of the strip x, y and z are
+// high.
+const BOX = [
+  `uniform vec3 low, high; void main() {
+    int corner = 1 << gl_VertexID;
+    bvec3 upper = bvec3((0x287a & corner) != 0, (0x02af & corner) != 0, (0x31e3 & corner) != 0);
+    gl_Position = view * vec4(mix(low, high, vec3(upper)), 1.); }`,
+  "out vec4 o; void main() { o = vec4(0.); }",
+];
+const BOX_CORNERS = 14; // of the strip
 const SLOW = 24; // milliseconds for a picture, from where on it gets coarser
 
 /**
@@ -89,6 +99,7 @@ export class Shading {
   constructor(capacity) {
     const gl = webgl(document.createElement("canvas"), { antialias: true });
     this.bodies = gl && new Bodies(gl, capacity);
+    this.box = gl && program(gl, BOX);
     this.capacity = capacity;
     this.sharp = 1;
     this.slow = 0;
@@ -115,8 +126,9 @@ export class Shading {
    * @param {ShadedFigure[]} figures
    * @param {Look} look
    * @param {number[]} size
+   * @param {number[][]} boxes which hide the figures behind them
    */
-  draw(pen, camera, figures, look, [wide, high]) {
+  draw(pen, camera, figures, look, [wide, high], boxes = []) {
     const { bodies } = this;
     if (!bodies) return;
     const { gl } = bodies;
@@ -133,6 +145,7 @@ export class Shading {
       figures.reduce((at, { figure, pose }) => capsulesAt(figure, pose, bodies.instances, at), 0) / SIZE,
       SHADOW,
     );
+    this.hide(seen, boxes);
     for (const { figure, pose, colours } of figures) {
       const count = capsulesAt(figure, pose, bodies.instances, 0);
       gl.bufferSubData(gl.ARRAY_BUFFER, 0, bodies.instances.subarray(0, count));
@@ -144,6 +157,30 @@ export class Shading {
       this.sharp = Math.min(1, Math.max(0.5, this.sharp * (this.slow > 0 ? 0.8 : 1.25)));
       this.slow = 0;
     }
+  }
+
+  /**
+   * Mark how far away boxes are, so that what is drawn behind them later stays hidden. A pen draws the boxes.
+   * @param {Sight} camera
+   * @param {number[][]} boxes
+   */
+  hide(camera, boxes) {
+    const { bodies, box: made } = this;
+    if (!bodies || !made || !boxes.length) return;
+    const { gl } = bodies;
+    /** @param {string} uniform */
+    const at = (uniform) => gl.getUniformLocation(made, uniform);
+    gl.useProgram(made);
+    gl.bindVertexArray(null);
+    gl.uniformMatrix4fv(at("view"), false, camera.view);
+    gl.enable(gl.DEPTH_TEST);
+    gl.colorMask(false, false, false, false);
+    for (const box of boxes) {
+      gl.uniform3fv(at("low"), box.slice(0, 3));
+      gl.uniform3fv(at("high"), box.slice(3));
+      gl.drawArrays(gl.TRIANGLE_STRIP, 0, BOX_CORNERS);
+    }
+    gl.colorMask(true, true, true, true);
   }
 }
 

@@ -79,6 +79,8 @@ export class Picture {
   palette;
   /** @type {Look | null} */
   light = null;
+  /** @type {number[][]} */
+  boxes = [];
   /** @type {CanvasRenderingContext2D} */
   pen;
 
@@ -122,6 +124,7 @@ export class Picture {
     this.camera.place(target, distance, wide, high);
     this.drawGround(target, reach);
     for (const disc of obstacles) this.drawObstacle(disc);
+    this.boxes = boxes;
     this.drawBoxes(boxes);
     /** @param {number[][]} positions */
     const flat = (positions) => positions.map(([x, z]) => [x, 0, z]);
@@ -381,7 +384,8 @@ export class Picture {
         : { middle, near: blend(left, grey, 0.25), far: blend(right, grey, 0.25) };
       return { figure: character, pose, colours };
     });
-    shading.draw(this.pen, this.camera, figures, light, [canvas.clientWidth, canvas.clientHeight]);
+    const size = [canvas.clientWidth, canvas.clientHeight];
+    shading.draw(this.pen, this.camera, figures, light, size, this.boxes);
     return true;
   }
 

@@ -19,6 +19,7 @@ YAW = 0.7  # radians
 PITCH = 0.25  # radians, downwards
 FOCUS = 1.5  # focal length, as a multiple of the smaller side of the picture
 NEAR = 0.1  # metres: nearer points are not drawn
+GRAZING = 1e-9  # component of a ray along an axis, instead of a smaller one
 TWICE = 2  # supersampling factor, which smooths edges
 SKY = "#FAF7F0"
 GROUND = "#ECE6DA"
@@ -103,6 +104,7 @@ class ShadedPicture:
         sun_x = sun_right * cos_yaw + sun_back * sin_yaw
         sun_z = sun_back * cos_yaw - sun_right * sin_yaw
         self.sun = np.array([sun_x, sun_up, sun_z])
+        self.boxes: list[Array] = []  # which hide the bodies behind them, (low, high) corners, shape (2, 3)
         self.paper = _paper(size)
         self.pen = ImageDraw.Draw(self.paper)
 
@@ -144,6 +146,8 @@ class ShadedPicture:
         met = np.full((3, TWICE * height, TWICE * width), np.inf, np.float32)
         for number, piece in enumerate(pieces):
             self._meet(piece, number, met)
+        for box in self.boxes:
+            self._hide(box, met)
         rows, columns = np.nonzero(np.isfinite(met[0]))
         pixels = rows // TWICE * width + columns // TWICE
         counts = np.bincount(pixels, minlength=width * height)
@@ -161,8 +165,8 @@ class ShadedPicture:
         low = (centres.T - reach).min(axis=1)
         high = (centres.T + reach).max(axis=1) + 1
         corners = (fine * np.array([low, high])).clip(0, fine * self.size)
-        (left, top), (right, bottom) = np.nan_to_num(corners).astype(int).tolist()
-        return slice(top, bottom), slice(left, right)
+        (first_column, first_row), (last_column, last_row) = np.nan_to_num(corners).astype(int).tolist()
+        return slice(first_row, last_row), slice(first_column, last_column)
 
     def _rays(self, window: Window, fine: int = 1) -> tuple[Floats, Floats]:
         """Return the rays of pixels at a depth of one metre: right (1, W) and up (H, 1), metres."""
@@ -256,15 +260,34 @@ class ShadedPicture:
         for values, new in zip(met, (t, number, u), strict=True):
             np.copyto(values[window], new, where=is_first, casting="unsafe")
 
+    def _hide(self, box: Array, met: Floats) -> None:
+        """Drop the intersections of rays with bodies that are behind a box.
+
+        A ray p = t d is between two parallel faces from t₁ to t₂, and in the box between all three pairs.
+        """
+        width, height = self.size.tolist()
+        right, up = self._rays((slice(0, TWICE * height), slice(0, TWICE * width)), TWICE)
+        starts = np.full(met.shape[1:], NEAR, np.float32)
+        ends = np.full(met.shape[1:], np.inf, np.float32)
+        for low, high, axis in zip(*(box - self.eye), self.axes.T, strict=True):
+            to_right, to_top, ahead = axis
+            along = right * to_right + (up * to_top + ahead)
+            along = np.where(abs(along) < GRAZING, GRAZING, along)
+            starts = np.maximum(starts, np.minimum(low / along, high / along))
+            ends = np.minimum(ends, np.maximum(low / along, high / along))
+        met[:, (starts < ends) & (starts < met[0])] = np.inf
+
     def _lit(self, pieces: Array, colours: Array, pixels: tuple[Indices, ...], met: Floats) -> Floats:
         """Shade the intersections of rays with bodies, (N, 3), as the shader of limbs in `bodies.js` does."""
         rows, columns = pixels
         distances, numbers, u = met[..., None]
         order = numbers[:, 0].astype(int)
         width, height = self.size.tolist()
-        right, up = self._rays((slice(0, TWICE * height), slice(0, TWICE * width)), TWICE)
-        view = np.stack([right[0, columns], up[rows, 0], np.ones_like(met[0])], axis=-1)
-        view = view @ self.axes.astype(np.float32)
+        whole = (slice(0, TWICE * height), slice(0, TWICE * width))
+        right, up = self._rays(whole, TWICE)
+        depths = np.ones_like(met[0])
+        rays = np.stack([right[0, columns], up[rows, 0], depths], axis=-1)
+        view = rays @ self.axes.astype(np.float32)
         points = self.eye.astype(np.float32) + view * distances
         normals = _normals(pieces.astype(np.float32)[order], u, points)
         return self._shade(colours.astype(np.float32)[order], points, normals, _unit(view))

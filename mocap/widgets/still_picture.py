@@ -14,7 +14,7 @@ from PIL import Image, ImageDraw, ImageFont
 from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
 from mocap.plotting.picture import LETTERS, SLIDE, few_colours
-from mocap.plotting.props import diamonds, rims
+from mocap.plotting.props import boxes_with, diamonds, rims
 from mocap.plotting.style import ASKED
 from mocap.widgets.filmed_scene import ASKED_WIDTH, FLAT, PATH_WIDTH, SEAM_RADIUS, XZ, FilmedScene
 from mocap.widgets.shaded_picture import FOCUS, GROUND, YAW, ShadedPicture
@@ -153,7 +153,7 @@ def _points_of(film: FilmedScene, bodies: list[Body]) -> Array:
         points += [path * FLAT for path in film.paths]
         points.append(requested_path(film))
         points += list(rims(film.scene["obstacles"]))
-    points.append(np.reshape(np.array(film.scene["boxes"], float), (-1, 3)))
+    points.append(boxes_with(film.scene["boxes"], [body.moved for body in bodies]).reshape(-1, 3))
     return np.concatenate(points)
 
 
@@ -162,7 +162,7 @@ def _draw_row(film: FilmedScene, row: list[Body], camera: _Camera) -> NDArray[np
     page = camera.page()
     numbers = sorted({body.number for body in row})
     film.draw_grid(page, np.round(camera.target * FLAT), camera.reach, GRID)
-    film.draw_props(page)
+    film.draw_props(page, [body.moved for body in row])
     if walks_on_ground(film):
         page.line(requested_path(film), to_rgb(ASKED), ASKED_WIDTH)
         for number in numbers:

@@ -383,6 +383,27 @@ def test_the_top_of_a_box_is_brighter_than_its_side(resting):
     assert (at(0.55, 0.4, 0.55) - side).min() > 15
 
 
+@shaded
+def test_a_box_hides_a_body_behind_it(resting):
+    def coloured(*boxes):
+        page = resting(play(wave(30), wave(30), boxes=boxes, yaw=0.0))
+        picture = colours(page).astype(int)
+        return (np.ptp(picture, axis=-1) > 60).sum()
+
+    assert coloured([-3, 0, -0.9, 3, 3, -0.8]) > 5 * coloured([-3, 0, 0.8, 3, 3, 0.9])
+
+
+def test_boxes_stay_with_bodies_that_are_beside_each_other(resting):
+    page = resting(play(wave(30), wave(30), boxes=[[0, 0, 0, 1, 1, 1]]))
+    assert page.evaluate(f"{PLAYER}.boxes()") == [[0, 0, 0, 1, 1, 1]]
+    page.get_by_label("side by side").check()
+    boxes = np.array(page.evaluate(f"{PLAYER}.boxes()"))
+    away = np.array(page.evaluate(f"{PLAYER}.characters.map((character) => character.away)"))
+    assert np.ptp(away, axis=0).max() > 0.3
+    assert np.allclose(boxes[:, :3], away)
+    assert np.allclose(boxes[:, 3:], away + 1)
+
+
 def test_a_line_behind_the_camera_is_cut_where_it_passes_it(resting):
     page = resting(play(wave(60), follow=False))
     ends = page.evaluate(f"""() => {{

@@ -12,9 +12,10 @@ from mocap.graphs import storage
 
 
 @pytest.fixture(scope="module")
-def cluster():
+def cluster(tmp_path_factory):
     distributed = pytest.importorskip("distributed")
     options = {"processes": False, "dashboard_address": None, "protocol": "tcp"}
+    options["local_directory"] = str(tmp_path_factory.mktemp("cluster"))
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, **options) as found:
         yield found
 
@@ -60,10 +61,11 @@ def test_a_scheduler_that_does_not_answer_is_refused(clips, run, monkeypatch):
     assert told.count("\n") == 1 and f"No scheduler answers at tcp://127.0.0.1:{port} within 0.3 s" in told
 
 
-def test_a_scheduler_without_workers_is_refused(clips, run, monkeypatch):
+def test_a_scheduler_without_workers_is_refused(clips, run, monkeypatch, tmp_path):
     distributed = pytest.importorskip("distributed")
     monkeypatch.setattr(clusters, "PATIENCE", 0.5)
     options = {"processes": False, "dashboard_address": None, "protocol": "tcp"}
+    options["local_directory"] = str(tmp_path)
     with distributed.LocalCluster(n_workers=0, **options) as empty:
         told = run(f"graph a.bvh -o g.npz --cluster {empty.scheduler_address}", 2).err
     assert told.count("\n") == 1 and "has no workers: start some by `dask worker tcp://" in told

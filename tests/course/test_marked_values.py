@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from nbclient.exceptions import CellExecutionError
 
 from mocap.course import notebooks, real_clips
 from mocap.course.marked_values import Marked, compare, marked, question, refreshed, values_of, wrong
@@ -80,6 +81,26 @@ def test_a_number_that_nothing_computes_stops_the_run(tmp_path, monkeypatch):
     nbformat.write(nbformat.v4.new_notebook(cells=cells), path)
     notebooks.run(path, tmp_path)
     assert nbformat.read(path, 4).cells[0].source == "It is 2.2<!--= off --> cm off."
+
+
+class Undisplayed:
+    """A run whose first cell computes a result that cannot be displayed: the reply names no error."""
+
+    def __init__(self, notebook, **options):
+        self.notebook = notebook
+
+    def execute(self, **options):
+        self.on_cell_start(cell=self.notebook.cells[0], cell_index=0)
+        output = nbformat.v4.new_output("error", ename="ValueError", evalue="no picture", traceback=[])
+        self.notebook.cells[0].outputs = [output]
+        raise CellExecutionError("", "NoneType", "None")
+
+
+def test_a_result_that_cannot_be_displayed_is_named_by_its_error(tmp_path, monkeypatch):
+    monkeypatch.setattr("nbclient.NotebookClient", Undisplayed)
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("shown")])
+    path = tmp_path / "n.ipynb"
+    refused("n.ipynb, cell 0: ValueError: no picture", notebooks.execute, notebook, path)
 
 
 def test_people_are_given_or_a_sentence(monkeypatch, capsys):

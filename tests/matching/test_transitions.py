@@ -159,12 +159,13 @@ def test_a_cost_is_below_its_threshold():
 
 
 @pytest.mark.sweep
-def test_a_cluster_gives_the_same_and_survives_the_loss_of_a_worker(monkeypatch):
+def test_a_cluster_gives_the_same_and_survives_the_loss_of_a_worker(monkeypatch, tmp_path):
     distributed = pytest.importorskip("distributed")
     tune(monkeypatch, minima, block=40)
     monkeypatch.setattr(tasks, "AHEAD", 2)
     expected = find_transitions(CLIPS, window=8, below=0.1)
-    cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
+    options = {"dashboard_address": None, "local_directory": str(tmp_path)}
+    cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, **options)
     with cluster, distributed.Client(cluster) as client:
         pids = list(client.run(os.getpid).values())
         assert len(set(pids)) == 2

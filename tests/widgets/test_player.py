@@ -22,6 +22,7 @@ from mocap.course.lab.showing import inspector
 from mocap.errors import MocapError
 from mocap.plotting import COLOURS, SOURCES, bones
 from mocap.plotting.picture import Picture
+from mocap.plotting.props import boxes_with
 from mocap.widgets import film, play
 from mocap.widgets.embedding import Embedded
 from mocap.widgets.filmed_scene import FilmedScene, stored_scene
@@ -235,6 +236,24 @@ def test_a_box_shows_its_top_brighter_than_its_sides():
     on_top, on_side = (page.paper.getpixel((round(across), round(down))) for across, down in (top, side))
     assert min(np.subtract(on_top, on_side)) > 20
     assert plain_page.paper.getpixel(tuple(np.round(top).astype(int).tolist())) != on_top
+
+
+def test_a_box_hides_the_bodies_behind_it_and_no_others():
+    def drawn(*boxes):
+        scene = FilmedScene(play(wave(9), wave(9), boxes=boxes, yaw=0.0).scene)
+        picture = scene.picture(0.0, (300, 300)).astype(int)
+        return (np.ptp(picture, axis=-1) > 40).sum()  # pixels in the colours of the bodies
+
+    whole = drawn()
+    assert whole > 400
+    assert drawn([-2, 0, 0.6, 2, 3, 0.7]) < 0.1 * whole  # between the camera and the body
+    assert drawn([-2, 0, -0.7, 2, 3, -0.6]) > 0.9 * whole
+
+
+def test_bodies_beside_each_other_have_a_box_each():
+    corners = boxes_with([[0, 0, 0, 1, 1, 1]], [[0, 0, 0], [3, 0, 0]])
+    assert corners[:, :, 0].tolist() == [[0, 1], [3, 4]]
+    assert len(boxes_with([], [[0, 0, 0]])) == 0
 
 
 def test_boxes_of_other_shapes_are_refused():

@@ -72,7 +72,8 @@ def search_events(lengths: Lengths, start: int, goal: int, longest: int) -> list
         elif len(walk) > longest:
             fate = "too long"
         else:
-            added = [(cost + length, (*walk, node)) for node, length in lengths[walk[-1]].items()]
+            successors = lengths[walk[-1]]
+            added = [(cost + length, (*walk, node)) for node, length in successors.items()]
             fate = "expanded" if added else "a dead end"
         waiting += sorted(added, key=lambda child: child[0], reverse=True)
         events.append(Event(walk, cost, fate, added))
@@ -107,18 +108,18 @@ def search_steps(
     """
     lengths = edge_lengths(graph)
     events = search_events(lengths, start, goal, longest)
-    _, (left, right) = plt.subplots(1, 2, figsize=(9, 4.6), layout="constrained")
-    arrows = eight_node_graph(graph, ax=left).patches
-    _write_lengths(left, lengths)
-    colour_tree = _draw_tree(right, events)
+    _, (graph_axes, tree_axes) = plt.subplots(1, 2, figsize=(9, 4.6), layout="constrained")
+    arrows = eight_node_graph(graph, ax=graph_axes).patches
+    _write_lengths(graph_axes, lengths)
+    colour_tree = _draw_tree(tree_axes, events)
 
     def draw(step: int) -> list[Artist]:
         shown = events[:step]
         best = min((e for e in shown if e.fate == "complete"), key=lambda e: e.cost, default=None)
         _highlight(arrows, graph.edges(), best.walk if best else ())
-        left.title.set_text(f"best so far: {best.cost:.2f} long" if best else "no complete walk yet")
-        right.title.set_text(f"step {len(shown)}: {_described(shown[-1])}" if shown else "")
-        return [*colour_tree(shown), left.title, right.title]
+        graph_axes.title.set_text(f"best so far: {best.cost:.2f} long" if best else "no complete walk yet")
+        tree_axes.title.set_text(f"step {len(shown)}: {_described(shown[-1])}" if shown else "")
+        return [*colour_tree(shown), graph_axes.title, tree_axes.title]
 
     return draw
 

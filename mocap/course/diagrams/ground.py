@@ -44,7 +44,8 @@ def alignment(
     parts = (shift, turn) if shift_first else (turn, shift)
     places = [moving, parts[0][0].apply_motion(moving)]
     places.append(parts[1][0].apply_motion(places[1]))
-    corners = np.concatenate([m.root_positions[:, [0, 2]] for m in (target, *places)] + [np.zeros((1, 2))])
+    trajectories = [motion.root_positions[:, [0, 2]] for motion in (target, *places)]
+    corners = np.concatenate([*trajectories, np.zeros((1, 2))])
     low = corners.min(axis=0) - 0.8
     high = corners.max(axis=0) + 0.8
     figure = Figure(figsize=(9, 3.4), layout="constrained")
@@ -56,7 +57,8 @@ def alignment(
         _draw_walker(ax, target, SOURCES[0], frame=-1)
         if number:
             _draw_walker(ax, places[number - 1], FLOOR, frame=0)
-            start, end = (complex(*m.root_positions[0, [0, 2]]) for m in places[number - 1 : number + 1])
+            steps = places[number - 1 : number + 1]
+            start, end = (complex(*motion.root_positions[0, [0, 2]]) for motion in steps)
             share = np.linspace(0, 1, 40)
             arc = start * np.exp(1j * np.angle(end / start) * share)
             route = arc if name == turn[1] else start + (end - start) * share

@@ -179,7 +179,8 @@ def down_the_tree(motion: Motion, frame: int = 0) -> Callable[[int], list[Artist
         limbs.set_color([COLOURS[side] for side in sides[ends <= joint]])  # type: ignore[operator]
         dots.set_data(points[: joint + 1].T)
         last.set_data(points[[joint]].T)
-        bone.xy, bone.xyann = points[joint], points[parent]
+        bone.xy = points[joint]
+        bone.xyann = points[parent]
         bone.set_visible(bool(abs(points[joint] - points[parent]).max() > 1e-6))
         relation = f"its parent is {parent}, {names[parent]}" if joint else "it has no parent"
         code.title.set(text=f"joint {joint}, {names[joint]}: {relation}")

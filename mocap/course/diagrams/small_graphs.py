@@ -107,10 +107,9 @@ def _draw_walk(ax: Axes) -> None:
 
 
 Node = Hashable
-EIGHT_PLACES: dict[Node, tuple[float, float]] = {
-    **{1: (0, 1), 2: (1, 2), 3: (1, 0), 4: (-0.2, -0.6)},
-    **{5: (3.6, 2.4), 6: (2.2, 2), 7: (3, 1), 8: (2.2, 0)},
-}
+EIGHT_X = (0.0, 1.0, 1.0, -0.2, 3.6, 2.2, 3.0, 2.2)  # of the nodes 1 to 8
+EIGHT_Y = (1.0, 2.0, 0.0, -0.6, 2.4, 2.0, 1.0, 0.0)
+EIGHT_PLACES: dict[Node, tuple[float, float]] = dict(enumerate(zip(EIGHT_X, EIGHT_Y, strict=True), 1))
 """Where the nodes of `graphs.notes_example` stand in the pictures of the course."""
 
 ON_STACK = "#F3E9B8"  # the colour of nodes
@@ -272,13 +271,13 @@ def tarjan_steps(graph: nx.MultiDiGraph) -> Callable[[int], list[Artist]]:
     Notebook: 06-pruning
     """
     states = tarjan_states({node: sorted(graph.successors(node)) for node in sorted(graph)})
-    figure, (left, right, code) = plt.subplots(1, 3, figsize=(11, 4.4), width_ratios=(9, 2, 12))
+    figure, (graph_axes, stack_axes, code) = plt.subplots(1, 3, figsize=(11, 4.4), width_ratios=(9, 2, 12))
     figure.subplots_adjust(left=0.01, right=0.99, top=0.93, bottom=0.23, wspace=0.04)
-    eight_node_graph(graph, beside=dict.fromkeys(graph, ""), ax=left)
-    discs = left.collections[0]
-    names = left.texts[: len(graph)]
-    numbers = left.texts[len(graph) :]
-    boxes, words = _draw_stack(right, len(graph))
+    eight_node_graph(graph, beside=dict.fromkeys(graph, ""), ax=graph_axes)
+    discs = graph_axes.collections[0]
+    names = graph_axes.texts[: len(graph)]
+    numbers = graph_axes.texts[len(graph) :]
+    boxes, words = _draw_stack(stack_axes, len(graph))
     mark = show_program(code, PROGRAM, 0)
     _explain(figure, len(states[-1].components))
 
@@ -293,10 +292,10 @@ def tarjan_steps(graph: nx.MultiDiGraph) -> Callable[[int], list[Artist]]:
             name.set_color("white" if node in parts else "black")
             links.set_text(f"{state.number[node]} / {state.low[node]}" if node in state.number else "")
         _fill_stack(boxes, words, state.stack)
-        right.title.set_text("stack" if state.stack else "empty")
-        left.title.set_text(f"step {states.index(state)}: {state.message}")
+        stack_axes.title.set_text("stack" if state.stack else "empty")
+        graph_axes.title.set_text(f"step {states.index(state)}: {state.message}")
         mark.set_y(state.line - 0.5)
-        return [discs, *names, *numbers, *boxes, *words, mark, right.title, left.title]
+        return [discs, *names, *numbers, *boxes, *words, mark, stack_axes.title, graph_axes.title]
 
     return draw
 

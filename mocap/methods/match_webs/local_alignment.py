@@ -61,9 +61,11 @@ def minima_1d(grid: ArrayLike) -> Mask:
     cells = np.asarray(grid)
     padded = np.pad(cells.astype(np.result_type(cells, np.float32), copy=False), 1, mode="edge")
     padded += EQUAL
-    in_row = (cells <= padded[1:-1, :-2]) & (cells <= padded[1:-1, 2:])
-    in_column = (cells <= padded[:-2, 1:-1]) & (cells <= padded[2:, 1:-1])
-    return np.asarray((in_row | in_column) & (cells < np.inf))
+    in_rows = padded[1:-1]
+    in_columns = padded[:, 1:-1]
+    lowest_in_row = (cells <= in_rows[:, :-2]) & (cells <= in_rows[:, 2:])
+    lowest_in_column = (cells <= in_columns[:-2]) & (cells <= in_columns[2:])
+    return np.asarray((lowest_in_row | lowest_in_column) & (cells < np.inf))
 
 
 # reads: name: users give `least` as a keyword

@@ -239,4 +239,5 @@ def turn_speeds(motion: Motion) -> Array:
     (1158, 38, 3)
     """
     steps = rotations.difference(motion.rotations[:-1], motion.rotations[1:]) * motion.fps
-    return np.concatenate([steps[:1], (steps[1:] + steps[:-1]) / 2, steps[-1:]])
+    means = (steps[1:] + steps[:-1]) / 2
+    return np.concatenate([steps[:1], means, steps[-1:]])

@@ -187,7 +187,8 @@ class Examples:
         used = np.flatnonzero(weights.any(axis=0))
         first = low.min()
         window = self.poses[used, first : low.max() + 2]
-        sums = (weights[:, used] @ window.reshape(len(used), -1)).reshape(-1, *window.shape[1:])
+        rows = weights[:, used] @ window.reshape(len(used), -1)
+        sums = rows.reshape(-1, *window.shape[1:])
         mix = np.arange(len(weights))[:, None]
         number = low - first
         poses = _between(sums[mix, number], sums[mix, number + 1], fraction[..., None, None])
@@ -329,16 +330,12 @@ def _sample(clip: Motion, frames: Array, grid: Array, names: Sequence[str]) -> d
     seconds = (frames - frames[first]) / clip.fps
     length = np.abs(np.diff(ground[first : last + 1])).sum()
     nearest = np.round(frames).astype(int)
-    # reads: statement: a table
-    return {
-        "seconds": seconds,
-        "speeds": np.gradient(ground, step) * np.exp(-1j * facing),
-        "turning": np.gradient(facing, step),
-        "heights": motion.root_positions[:, 1],
-        "poses": poses,
-        "contacts": np.stack([clip.contacts[name][nearest] for name in names], axis=1),
-        "values": np.array([facing[last] - facing[first], length / seconds[last]]),
-    }
+    sampled = {"seconds": seconds, "heights": motion.root_positions[:, 1], "poses": poses}
+    sampled["speeds"] = np.gradient(ground, step) * np.exp(-1j * facing)
+    sampled["turning"] = np.gradient(facing, step)
+    sampled["contacts"] = np.stack([clip.contacts[name][nearest] for name in names], axis=1)
+    sampled["values"] = np.array([facing[last] - facing[first], length / seconds[last]])
+    return sampled
 
 
 def mixed_trajectory(examples: Examples, weights: Array) -> tuple[Points, Array]:

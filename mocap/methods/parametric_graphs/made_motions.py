@@ -70,7 +70,8 @@ def make_motion(space: Space, parameters: Array) -> MadeMotion:
     weights = combination @ space.weights[samples]
     values = combination @ space.values[samples]
     seconds = weights @ examples.seconds
-    frames = np.arange(np.ceil(seconds[0] * fps), np.floor(seconds[-1] * fps) + 1)
+    first, last = seconds[[0, -1]] * fps
+    frames = np.arange(np.ceil(first), np.floor(last) + 1)
     times = frames / fps
     positions = np.interp(times, seconds, np.arange(len(seconds)))
     motion, facing = examples.motion(weights, positions, fps)

@@ -124,12 +124,12 @@ def _example_frames(
 
 def _strikes(clip: Motion) -> list[_Strike]:
     """Find the foot strikes. A footplant in the first frame is left out, because it began earlier."""
-    left, right = (clip.skeleton.names[leg.ankle] for leg in find_legs(clip.skeleton))
-    missing = [name for name in (left, right) if name not in clip.contacts]
+    left_ankle, right_ankle = (clip.skeleton.names[leg.ankle] for leg in find_legs(clip.skeleton))
+    missing = [name for name in (left_ankle, right_ankle) if name not in clip.contacts]
     if missing:
         raise MocapError(f"'{clip.name}' does not say when {missing[0]} stands; mark_plants finds out.")
     strikes = []
-    for name, foot in ((left, "l"), (right, "r")):
+    for name, foot in ((left_ankle, "l"), (right_ankle, "r")):
         starts = runs(clip.contacts[name])[:, 0].tolist()
         strikes += [_Strike(frame, foot) for frame in starts if frame > 0]
     return sorted(strikes)
