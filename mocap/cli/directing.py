@@ -101,6 +101,7 @@ def write_contents(
     licences: Mapping[str, str],
     *,
     jolts: bool,
+    held: Sequence[tuple[int, int]] = (),
 ) -> None:
     """Write the table of a walk beside its motion, and print the licences of its clips.
 
@@ -110,6 +111,7 @@ def write_contents(
     graph, licences : the graph, and the licences of its clips by name.
     walk : the edges, in pieces.
     jolts : whether to measure the seams, which takes some milliseconds for each.
+    held : pairs of a frame of the walk and the number of frames that are added before it.
     """
     from itertools import chain
 
@@ -119,7 +121,7 @@ def write_contents(
     table = table_of(out)
     edges = list(chain.from_iterable(walk))
     with timed_stage("listing the edges"):
-        totals = write_parts(table, graph, walk_parts(graph, edges, licences, jolts=jolts))
+        totals = write_parts(table, graph, walk_parts(graph, edges, licences, jolts=jolts, held=held))
     if licences:
         print_rows(licences=licence_report(totals))
     print_rows(wrote=table)
@@ -158,4 +160,5 @@ def describe(arrival: "Arrived") -> str:
     """Describe how a walk arrives at a point of its direction."""
     turned = "" if math.isnan(arrival.turned) else f", {math.degrees(arrival.turned):+.0f}° from the heading"
     late = "" if math.isnan(arrival.late) else f", {arrival.late:+.1f} s from the time asked"
-    return f"{arrival.second:.1f} s, {100 * arrival.off:.0f} cm off{turned}{late}"
+    waits = "" if math.isnan(arrival.waited) else f", waits {arrival.waited:.1f} s"
+    return f"{arrival.second:.1f} s, {100 * arrival.off:.0f} cm off{turned}{late}{waits}"

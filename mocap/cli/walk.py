@@ -172,10 +172,11 @@ class _Writing:
         with timed_stage("making the motion"):
             motion = directed.motion(clean=True if self.clean else None)
         write_out(motion, self.out)
-        write_contents(self.out, directed.graph, [directed.walk], self.licences, jolts=True)
+        held = [(hold.frame, hold.added) for hold in directed.holds]
+        write_contents(self.out, directed.graph, [directed.walk], self.licences, jolts=True, held=held)
         if directing.inspect:
             points = [(point.x, point.z) for point in direction.points]
-            track = directed.fitted.root_positions[:, [0, 2]]
+            track = directed.fitted.root_positions[directed.walk_frames][:, [0, 2]]
             write_seams(directing.inspect, directed.graph, directed.walk, track, points)
         return 0 if directed.stopped in ("", OUT_OF_TIME) else INTERRUPTED
 

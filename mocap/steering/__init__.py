@@ -21,24 +21,26 @@ Reading order (notebooks 08, 12, 17, 18)
  8. `waypoints_and_crowds`: waypoints with labels and times, and characters that avoid each other
  9. `seam_replacing`: walks without some of their seams
 10. `standing`: standing stretches as part of a graph
-11. `waiting`: walks through standing stretches that last a given time
+11. `waiting`: walks through standing stretches, and frames held while the body stands
 12. `detours`: lines around discs
 13. `direction_search`: prices of headings, discs, and the time and place of arrival
 14. `anchoring`: corrections that are spread over the steps of a walk
 15. `direction_legs`: the parts of a direction between the places where it waits
 16. `directed_walk`: a walk that follows a direction, how it arrives, and what was corrected
 17. `leg_search`: search for one leg of a direction
-18. `directing`: walks that follow a direction: they stand, wait, turn and arrive
-19. `characters`: the protocol, the pose of a step, a walk by given commands, and the delay of its response
-20. `look_ahead`: walks ahead of a character on a motion graph, and their costs
-21. `graph_control`: a character on a motion graph
-22. `plain_vectors`: vectors and rotations in plain numbers
-23. `leg_reach`: inverse kinematics of a leg in closed form
-24. `held_feet`: standing feet are held while a character moves on
-25. `root_turning`: the way to steer: additional rotation about the root, longer or shorter steps, held feet
-26. `foot_turning`: additional rotation about the planted foot, as a comparison
-27. `judged_control`: one evaluation protocol for all characters
-28. `tuned`: the constants that trials chose
+18. `walk_assembly`: the edges, held frames and anchors of a walk that consists of legs
+19. `walk_plans`: the legs of a walk and the waits between them, in time for each other
+20. `directing`: walks that follow a direction: they stand, wait, turn and arrive
+21. `characters`: the protocol, the pose of a step, a walk by given commands, and the delay of its response
+22. `look_ahead`: walks ahead of a character on a motion graph, and their costs
+23. `graph_control`: a character on a motion graph
+24. `plain_vectors`: vectors and rotations in plain numbers
+25. `leg_reach`: inverse kinematics of a leg in closed form
+26. `held_feet`: standing feet are held while a character moves on
+27. `root_turning`: the way to steer: additional rotation about the root, longer or shorter steps, held feet
+28. `foot_turning`: additional rotation about the planted foot, as a comparison
+29. `judged_control`: one evaluation protocol for all characters
+30. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -24,6 +24,7 @@ from mocap.body.planar import on_ground
 from mocap.editing.bending import LIMIT
 
 PEAK = 15 / 8  # the largest slope of `quintic_step`
+TURN_SECONDS = 0.8  # seconds, the least time of a rotation. Shorter, small rotations are a jolt
 MOVES = 0.2  # m/s of the root, above which a body moves
 STILL = 0.2  # metres travelled between two anchors, below which a correction is spread over time
 
@@ -181,9 +182,19 @@ def rotate_at_ends(motion: Motion, first: float, last: float) -> Motion:
     >>> turned[[0, -1]].round(6)
     array([0., 1.])
     """
-    turn = end_rotations(motion, first, last)
+    return rotated_about_root(motion, end_rotations(motion, first, last))
+
+
+def rotated_about_root(motion: Motion, rotation: Array) -> Motion:
+    """Return a motion whose body is rotated about its root by an angle in each frame, on the same track.
+
+    Parameters
+    ----------
+    motion : F frames.
+    rotation : shape (F,), radians.
+    """
     local = motion.rotations.copy()
-    local[:, 0] = rotations.multiply(rotations.about_y(turn), local[:, 0])
+    local[:, 0] = rotations.multiply(rotations.about_y(rotation), local[:, 0])
     return replace(motion, rotations=local)
 
 
@@ -195,11 +206,34 @@ def end_rotations(motion: Motion, first: float, last: float) -> Array:
     stop = int(moving[-1]) if len(moving) else len(motion) - 1
     frames = np.arange(len(motion))
 
-    def needed(angle: float) -> float:  # frames, if the highest speed is `LIMIT`
-        return max(1.0, PEAK * abs(angle) / LIMIT * motion.fps)
-
-    # Both turns share the time, if it is short.
-    factor = min(1.0, (stop - start) / (needed(first) + needed(last)))
-    turn_in = first * (1 - quintic_step((frames - start) / (factor * needed(first))))
-    turn_out = last * quintic_step((frames - stop) / (factor * needed(last)) + 1)
+    in_frames, out_frames = (_frames_of(angle, motion.fps) for angle in (first, last))
+    # Both turns share the time, if it is short; a body that hardly moves turns within a frame.
+    factor = min(1.0, max(1, stop - start) / (in_frames + out_frames))
+    turn_in = first * (1 - quintic_step((frames - start) / (factor * in_frames)))
+    turn_out = last * quintic_step((frames - stop) / (factor * out_frames) + 1)
     return np.asarray(turn_in + turn_out)
+
+
+def passing_rotation(motion: Motion, frame: int, angle: float) -> Array:
+    """Return the angle in each frame, shape (F,), of a body that is rotated to an angle in a frame, and back.
+
+    Parameters
+    ----------
+    motion : F frames.
+    frame : the frame in which the body is rotated by `angle`.
+    angle : radians.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> turn = passing_rotation(sample("walk_straight")[:200], 100, 0.5)
+    >>> turn[[0, 100, 199]].round(6).tolist()
+    [0.0, 0.5, 0.0]
+    """
+    distance = np.abs(np.arange(len(motion)) - frame)
+    return np.asarray(angle * quintic_step(1 - distance / _frames_of(angle, motion.fps)))
+
+
+def _frames_of(angle: float, fps: float) -> float:
+    """Return the number of frames of a rotation whose highest speed is `LIMIT`."""
+    return max(TURN_SECONDS, PEAK * abs(angle) / LIMIT) * fps

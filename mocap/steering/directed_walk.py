@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from mocap._shared.arrays import Array, Indices
 from mocap._shared.records import NamedTuple, dataclass
 from mocap.body.motion import Motion
 from mocap.body.planar import on_ground
@@ -25,10 +26,12 @@ from mocap.steering.anchoring import (
     end_rotations,
     fit_to_anchors,
     headings_in,
-    rotate_at_ends,
+    passing_rotation,
+    rotated_about_root,
     wrapped,
 )
 from mocap.steering.direction_legs import position_of
+from mocap.steering.waiting import Hold, held_frames
 from mocap.synthesis.walk_to_motion import to_motion, with_footplants
 
 FAST = 1.05  # times the limit of added rotation, above which it is reported
@@ -50,6 +53,7 @@ class Arrived(NamedTuple):
     off : the distance of the root from it, metres.
     turned : the error of the heading, radians, nan if none is asked for.
     late : the delay, seconds, nan if no time is asked for.
+    waited : for how long the body stands there, seconds, nan if no wait is asked for.
     """
 
     point: DirectedPoint
@@ -57,6 +61,7 @@ class Arrived(NamedTuple):
     off: float  # reads: name: public, as `Followed.off`
     turned: float
     late: float
+    waited: float = float("nan")
 
 
 class Piece(NamedTuple):
@@ -66,11 +71,20 @@ class Piece(NamedTuple):
     ----------
     start, end : the anchors of its first and last frame, before the body is rotated there.
     rotations : those of the body at both ends, radians, if it is to face another way than clips do.
+    through : the anchors of frames between them, in which the walk passes points.
+    facing : pairs of a frame between them and the heading of the body there, radians.
     """
 
     start: Anchor
     end: Anchor
     rotations: tuple[float, float] = (0.0, 0.0)
+    through: Sequence[Anchor] = ()
+    facing: Sequence[tuple[int, float]] = ()
+
+    @property
+    def anchors(self) -> list[Anchor]:
+        """All anchors in order."""
+        return [self.start, *self.through, self.end]
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +100,8 @@ class Directed:
     points : the points of the direction; those in one place are one.
     passes : the frame in which the walk passes each of them.
     stopped : "", or the reason for which a search ended early.
+    holds : frames that are added while the body stands, because no clip stands as long.
+    waits : for how long the body stands at each point, seconds, nan if no wait is asked for.
     """
 
     graph: MotionGraph
@@ -95,6 +111,8 @@ class Directed:
     points: Sequence[DirectedPoint]
     passes: Sequence[int]
     stopped: str
+    holds: Sequence[Hold] = ()
+    waits: Sequence[float] = ()
 
     def __repr__(self) -> str:
         return f"Directed({self.report()})"
@@ -102,7 +120,27 @@ class Directed:
     @cached_property
     def raw(self) -> Motion:
         """The motion before it is corrected, where its first clip is."""
-        return to_motion(self.graph, self.walk)
+        return self._held(to_motion(self.graph, self.walk))
+
+    def _held(self, motion: Motion) -> Motion:
+        """Return the motion of the walk with the frames that are held."""
+        return motion.at(held_frames(len(motion), self.holds)) if self.holds else motion
+
+    @property
+    def walk_frames(self) -> Indices:
+        """The numbers of the frames of the motion that are frames of the walk, and not held."""
+        is_held = np.zeros(len(self.raw), bool)
+        added_frames = 0
+        for hold in self.holds:
+            first = hold.frame + added_frames
+            is_held[first : first + hold.added] = True
+            added_frames += hold.added
+        return np.flatnonzero(~is_held)
+
+    @property
+    def held_seconds(self) -> float:
+        """For how long the body is held in a pose that sways, seconds, because no clip stands as long."""
+        return sum(hold.added for hold in self.holds) / self.graph.fps
 
     @cached_property
     def fitted(self) -> Motion:
@@ -111,7 +149,7 @@ class Directed:
         local = self.raw.rotations.copy()
         for piece in self.pieces:
             frames = slice(piece.start.frame, piece.end.frame + 1)
-            part = rotate_at_ends(self._anchored(piece), *piece.rotations)
+            part = rotated_about_root(self._anchored(piece), self._turns(piece))
             roots[frames] = part.root_positions
             local[frames] = part.rotations
         return replace(self.raw, root_positions=roots, rotations=local)
@@ -120,22 +158,31 @@ class Directed:
         """Return the motion of a piece that meets its anchors."""
         first = piece.start.frame
         part = self.raw[first : piece.end.frame + 1]
-        ends = [anchor._replace(frame=anchor.frame - first) for anchor in (piece.start, piece.end)]
-        return fit_to_anchors(part, ends)
+        return fit_to_anchors(part, [anchor._replace(frame=anchor.frame - first) for anchor in piece.anchors])
+
+    def _turns(self, piece: Piece) -> Array:
+        """Return the rotation about the root in each frame of a piece, for its ends and its points."""
+        part = self._anchored(piece)
+        turns = end_rotations(part, *piece.rotations)
+        for frame, heading in piece.facing:
+            place = frame - piece.start.frame
+            error = wrapped(heading - float(headings_in(part[[place]])[0] + turns[place]))
+            turns = turns + passing_rotation(part, place, error)
+        return turns
 
     @cached_property
     def corrections(self) -> list[Correction]:
-        """The correction in each piece, except for the rotations at its ends."""
-        return [corrections(self.raw, [piece.start, piece.end])[0] for piece in self.pieces]
+        """The corrections between anchors, except for rotations about the root."""
+        parts = [corrections(self.raw, piece.anchors) for piece in self.pieces]
+        return [correction for of_piece in parts for correction in of_piece]
 
     @cached_property
     def turning(self) -> float:
-        """The largest angular speed that the rotations at ends add to the walk, radians per second."""
+        """The largest angular speed that rotations about the root add to the walk, radians per second."""
         speeds = [0.0]
         for piece in self.pieces:
-            if any(piece.rotations):
-                turn = end_rotations(self._anchored(piece), *piece.rotations)
-                speeds.append(float(np.abs(np.diff(turn)).max() * self.raw.fps))
+            if any(piece.rotations) or piece.facing:
+                speeds.append(float(np.abs(np.diff(self._turns(piece))).max() * self.raw.fps))
         return max(speeds)
 
     @property
@@ -159,7 +206,7 @@ class Directed:
         if not clean:
             return fitted
         marked = with_footplants(self.graph)
-        contacts = to_motion(marked, self.walk).contacts
+        contacts = self._held(to_motion(marked, self.walk)).contacts
         return clean_feet(replace(fitted, contacts=contacts), lowest_heights(marked.clips))
 
     @cached_property
@@ -168,12 +215,13 @@ class Directed:
         track = on_ground(self.fitted.root_positions)
         facing = headings_in(self.fitted[list(self.passes)])
         listed = []
-        for point, frame, angle in zip(self.points, self.passes, facing, strict=True):
+        waits = self.waits or [np.nan] * len(self.points)
+        for point, frame, angle, waited in zip(self.points, self.passes, facing, waits, strict=True):
             second = frame / self.raw.fps
             turned = np.nan if point.heading is None else wrapped(angle - point.heading)
             late = np.nan if point.t is None else second - point.t
             distance = float(abs(track[frame] - position_of(point)))
-            listed.append(Arrived(point, second, distance, turned, late))
+            listed.append(Arrived(point, second, distance, turned, late, waited))
         return listed
 
     @property
@@ -196,6 +244,7 @@ class Directed:
         angle = max((abs(part.radians) for part in self.corrections), default=0.0)
         line += f"; steps corrected by {100 * metres:.0f} cm and {np.degrees(angle):.0f}° in all"
         line += f", turned by up to {np.degrees(self.turning):.0f}°/s" if self.turning else ""
+        line += f", held for {self.held_seconds:.1f} s while it stands" if self.holds else ""
         return f"{line}; {self.stopped}: the best so far" if self.stopped else line
 
 
@@ -215,7 +264,7 @@ def warn_of_misses(directed: Directed) -> None:
 
 
 def _warn_of_arrival(arrival: Arrived, place: str) -> None:
-    """Warn if a walk is late or early at a point, or has another heading than asked."""
+    """Warn if a walk is late or early at a point, off it, or has another heading or wait than asked."""
     delay = f"The walk arrives {abs(arrival.late):.1f} s"
     if arrival.late > LATE:
         warn(f"{delay} later than asked {place}: no clips walk so fast.")
@@ -224,3 +273,8 @@ def _warn_of_arrival(arrival: Arrived, place: str) -> None:
     if abs(arrival.turned) > TILTED:
         angle = np.degrees(abs(arrival.turned))
         warn(f"The body is {angle:.0f}° from the heading asked for {place}: no clips turn so.")
+    if arrival.off > OFF:
+        warn(f"The walk is {100 * arrival.off:.0f} cm off {place}: no clips turn so sharply.")
+    if abs(arrival.waited - arrival.point.wait) > LATE:
+        wait = f"A wait of {arrival.point.wait:.1f} s lasts {arrival.waited:.1f} s {place}"
+        warn(f"{wait}: the clips there stand so long, or the next time asks for it.")

@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from mocap._shared.arrays import Mask, Points
+from mocap._shared.arrays import Array, Mask, Points
 from mocap._shared.deadlines import Deadline
 from mocap._shared.records import NamedTuple
 from mocap.body.ground_path import GroundPath
@@ -18,21 +18,24 @@ from mocap.errors import NoWalk
 from mocap.files.directions import Direction
 from mocap.graphs.compiled_graph import walk_track
 from mocap.graphs.edge_tables import Edge
+from mocap.graphs.tuned import TUNED as GRAPH_TUNED
 from mocap.steering.anchoring import wrapped
 from mocap.steering.detours import line_around, metres_of
 from mocap.steering.directed_walk import LATE
-from mocap.steering.direction_legs import Leg, position_of, rotations_at_ends
+from mocap.steering.direction_legs import Leg, line_with_headings, position_of, rotations_at_ends, times_along
 from mocap.steering.direction_search import ENTERED_PRICE, DirectedSearch, Goal, Prices, attainable_times
 from mocap.steering.layered_search import States, start_states
 from mocap.steering.path_objective import PathRequest, Route, Settings, make_route
 from mocap.steering.path_search import Found, find_walk
-from mocap.steering.standing import StandingGraph
+from mocap.steering.standing import MOVES, StandingGraph
 from mocap.steering.tuned import TUNED
 
 WIDTHS = (60, 200)  # beam widths: the second if the first search misses what is asked for
 TURNED = np.radians(30)  # radians between a line and a heading at its end, beyond which the line is turned
 LESS_LATE = 0.35  # times the price of a delay, if clips are too slow to be in time. At 1 ends are missed
 GOOD_OFF = 0.35  # metres
+PASSED = 3  # nodes of a standing stretch that a search may pass beyond the one at which the walk can wait
+PASSING = 0.7  # metres along the line around a point, in which the nearest frame passes it
 
 
 class FoundLeg(NamedTuple):
@@ -41,19 +44,37 @@ class FoundLeg(NamedTuple):
     Parameters
     ----------
     walk : the walk.
-    facing : the heading of the body in its first frame, radians, before the body is rotated there.
+    track : shape (F,), the position of the root in each frame, as z + ix in metres.
+    headings : shape (F,), the heading of the body in each frame, radians, before the body is rotated.
     heading : the same at its end.
     rotations : the rotations of the body at both ends, radians.
-    position : the position of the root at its end.
     metres : the arc lengths of the points of the leg along its line.
     """
 
     walk: Found
-    facing: float
+    track: Points
+    headings: Array
     heading: float
     rotations: tuple[float, float]
-    position: complex
     metres: Sequence[float]
+
+    def still_first(self, fps: float) -> int:
+        """Return for how many frames the body stands before it moves."""
+        moving = np.flatnonzero(np.abs(np.diff(self.track)) * fps > MOVES)
+        return int(moving[0]) if len(moving) else len(self.track)
+
+    def still_last(self, fps: float) -> int:
+        """Return for how many frames the body stands at the end."""
+        moving = np.flatnonzero(np.abs(np.diff(self.track)) * fps > MOVES)
+        return len(self.track) - 2 - int(moving[-1]) if len(moving) else len(self.track)
+
+    def pass_of(self, number: int, position: complex) -> int:
+        """Return the frame in which the walk passes a point of the leg, by its number and its position."""
+        distance = np.abs(self.track - position)
+        is_near = np.abs(self.walk.along - self.metres[number]) < PASSING
+        if not is_near.any():
+            return min(int(np.searchsorted(self.walk.along, self.metres[number])), len(self.track) - 1)
+        return int(np.where(is_near, distance, np.inf).argmin())
 
 
 class LegSearch:
@@ -85,8 +106,10 @@ class LegSearch:
         nodes = self.compiled.nodes
         self.is_arriving = np.array([node in standing.arriving for node in nodes])
         self.is_waiting = np.array([node in standing.waiting for node in nodes])
+        self.stays = np.array([node in standing.nodes for node in nodes])
         self.is_leaving = np.array([node in standing.leaving for node in nodes])
         self.at_nodes, self.in_frames = standing.headings
+        self.longest_passed = round(GRAPH_TUNED.longest_macro_edge * self.compiled.fps)
 
     def find(
         self, leg: Leg, heading: float | None, waits: Mapping[int, Sequence[int]], elapsed: float
@@ -110,16 +133,8 @@ class LegSearch:
         metres = metres_of(line, [position_of(point) for point in leg.points])
         faced = None if heading is None else heading - rotations[0]
         starts = self._starts(leg, waits, line, faced)
-        labels = [
-            (place, point.label) for place, point in zip(metres, leg.points, strict=True) if point.label
-        ]
-        route = make_route(
-            self.compiled, GroundPath(from_ground(line)), PathRequest(labels=labels, kept=self.kept)
-        )
-        times = []
-        for place, point in zip(metres[1:], leg.points[1:], strict=True):
-            if point.t is not None:
-                times.append((min(place, route.length), point.t - elapsed))
+        route = self._route(leg, line, metres)
+        times = times_along(leg, metres, route.length, elapsed)
         start = int(starts.frames.min()) / self.compiled.fps
         attainable = attainable_times(times, self.standing.paces[1], start)
         can_be_in_time = attainable == times
@@ -127,19 +142,38 @@ class LegSearch:
         prices = replace(self.prices, arrival=factor * self.prices.arrival)
         goal = replace(self._goal(leg, rotations[1], metres), times=attainable, prices=prices)
         walk = self._search(route, goal, starts, can_be_in_time=can_be_in_time)
-        track, _ = walk_track(self.compiled, walk.edges, walk.rotation, walk.translation)
-        first = self.compiled.index(self.compiled.edges[walk.edges[0]][0])
-        facing = float(np.angle(walk.rotation) + self.at_nodes[first])
-        ends = (facing, self._heading_at_end(walk))
-        return FoundLeg(walk, *ends, rotations, complex(track[-1]), metres)
+        walk = self._without_wait(walk) if leg.stands_first else walk
+        if leg.stands_last:
+            can_end = np.array(self.stays if leg.is_last else self.is_waiting)
+            is_timed = leg.points[-1].t is not None
+            walk = self._until(walk, can_end, 0 if is_timed else self._settled_frames(walk))
+        return self._with_track(walk, rotations, metres)
+
+    def _with_track(self, walk: Found, rotations: tuple[float, float], metres: Sequence[float]) -> FoundLeg:
+        """Return a leg with the positions and headings of its frames."""
+        track, rows = walk_track(self.compiled, walk.edges, walk.rotation, walk.translation)
+        turns = np.cumprod([walk.rotation, *self.compiled.rotation[walk.edges]])[:-1]
+        turned = np.repeat(np.angle(turns), self.compiled.frames[walk.edges])
+        headings = turned + self.in_frames[rows]
+        return FoundLeg(walk, track, headings, self._heading_at_end(walk), rotations, metres)
+
+    def _route(self, leg: Leg, line: Points, metres: Sequence[float]) -> Route:
+        """Return a line as a route, with the labels of its points."""
+        labels = []
+        for place, point in zip(metres, leg.points, strict=True):
+            if point.label:
+                labels.append((place, point.label))
+        path = GroundPath(from_ground(line))
+        return make_route(self.compiled, path, PathRequest(labels=labels, kept=self.kept))
 
     def _line(self, leg: Leg) -> Points:
         """Return the line of a leg, led around the discs at the largest clearance that leaves a way."""
+        points = line_with_headings(leg.points)
         *wide, narrowest = TUNED.clearances
         for clearance in wide:
             with suppress(NoWalk):
-                return line_around(leg.points, self.discs, clearance)
-        return line_around(leg.points, self.discs, narrowest)
+                return line_around(points, self.discs, clearance)
+        return line_around(points, self.discs, narrowest)
 
     def _starts(
         self, leg: Leg, waits: Mapping[int, Sequence[int]], line: Points, heading: float | None
@@ -148,15 +182,18 @@ class LegSearch:
         if not waits:
             fits = np.flatnonzero(self.is_leaving) if leg.stands_first else range(len(self.at_nodes))
             waits = dict.fromkeys(map(int, fits), (0,))
-        pairs = [(node, frames) for node in sorted(waits) for frames in waits[node]]
-        nodes, waited = np.array(pairs).T
+        rows = [(node, frames, min(waits[node])) for node in sorted(waits) for frames in waits[node]]
+        nodes, waited, shortest = np.array(rows).T
         ahead = float(np.angle(line[min(len(line) - 1, 8)] - line[0]))
         must_face = leg.stands_first or heading is not None
         directions = self.at_nodes[nodes] if must_face else self.compiled.going[nodes]
         wanted = ahead if heading is None else heading
         rotation = np.exp(1j * (wanted - directions))
         starts = start_states(nodes, rotation, line[0] - rotation * self.compiled.at[nodes])
-        return starts._replace(frames=waited)
+        # A wait that is asked for is as dear as a time.
+        seconds = (waited - shortest) / self.compiled.fps
+        price = self.prices.arrival if leg.points[0].wait else 0.0
+        return starts._replace(frames=waited, cost=price * seconds**2)
 
     def _goal(self, leg: Leg, turn: float, metres: Sequence[float]) -> Goal:
         """Return what a leg asks for beside its line, before the body is rotated by `turn` at its end."""
@@ -186,8 +223,59 @@ class LegSearch:
             return np.ones(len(self.at_nodes), bool)
         if leg.is_last:
             return self.is_arriving
-        settled = self.is_arriving & self.is_waiting
+        settled = self.is_arriving & (self.is_waiting | self._passes_waiting())
         return settled if settled.any() else self.is_waiting
+
+    def _passes_waiting(self) -> Mask:
+        """Return which nodes a walk reaches by a clip just after one at which it can wait."""
+        nodes = np.array(self.compiled.nodes)
+        is_near = np.zeros(len(nodes), bool)
+        for count in range(1, PASSED + 1):
+            earlier = nodes[:-count]
+            later = nodes[count:]
+            is_short = later[:, 1] - earlier[:, 1] <= self.longest_passed
+            is_same_clip = later[:, 0] == earlier[:, 0]
+            is_near[count:] |= is_same_clip & is_short & self.is_waiting[:-count]
+        return is_near
+
+    def _without_wait(self, walk: Found) -> Found:
+        """Return a walk without the edges between standing nodes at its start, a part of the wait."""
+        for _ in range(len(walk.edges) - 1):
+            edge, *_ = walk.edges
+            if not self.stays[self.compiled.target[edge]]:
+                break
+            frames = int(self.compiled.frames[edge])
+            # reads: statement: one field a line
+            walk = walk._replace(
+                edges=walk.edges[1:],
+                along=walk.along[frames:],
+                rotation=walk.rotation * self.compiled.rotation[edge],
+                translation=walk.translation + walk.rotation * self.compiled.translation[edge],
+                waited=walk.waited + frames,
+            )
+        return walk
+
+    def _settled_frames(self, walk: Found) -> int:
+        """Return how many frames at the end of a walk are a part of the wait, after it has come to stand."""
+        track = self._with_track(walk, (0.0, 0.0), ())
+        settled = round(TUNED.settled_seconds * self.compiled.fps)
+        return max(0, track.still_last(self.compiled.fps) - settled)
+
+    def _until(self, walk: Found, can_end: Mask, frames: int) -> Found:
+        """Return a walk without its last frames, at most so many, unless it can end only before them."""
+        chosen: int | None = None
+        dropped = 0
+        for number in range(len(walk.edges), 0, -1):
+            ends_here = bool(can_end[self.compiled.target[walk.edges[number - 1]]])
+            if dropped > frames and (chosen is not None or len(walk.edges) - number > PASSED):
+                break
+            if ends_here:
+                chosen = number
+            dropped += int(self.compiled.frames[walk.edges[number - 1]])
+        if chosen is None:
+            return walk
+        kept = int(self.compiled.frames[walk.edges[:chosen]].sum())
+        return walk._replace(edges=walk.edges[:chosen], along=walk.along[:kept])
 
     def _search(self, route: Route, goal: Goal, starts: States, *, can_be_in_time: bool) -> Found:
         """Search for a leg, and with a wider beam if the first walk misses what is asked for."""
@@ -210,12 +298,14 @@ class LegSearch:
 
     def _largest_delay(self, goal: Goal, walk: Found, length: float) -> float:
         """Return the largest delay or advance of a walk at times along a route of a length, seconds."""
-        delays = [0.0]
+        delays = []
         for metres, seconds in goal.times:
             is_last = metres >= length
             passed = len(walk.along) if is_last else int(np.searchsorted(walk.along, metres))
-            delays.append(abs((walk.waited + passed) / self.compiled.fps - seconds))
-        return max(delays)
+            delays.append((walk.waited + passed) / self.compiled.fps - seconds)
+        # A wait before the leg makes up for what its delays have in common.
+        shift = float(np.clip(np.mean(delays), -LATE, LATE)) if goal.starts_standing and delays else 0.0
+        return max((abs(delay - shift) for delay in delays), default=0.0)
 
     def _is_good(self, result: Found, goal: Goal, route: Route, *, must_be_in_time: bool) -> bool:
         """Return whether a leg ends near enough for a correction that nobody sees, and is in time."""

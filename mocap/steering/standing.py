@@ -7,7 +7,7 @@ other, so that a walk can also wait.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
 
@@ -21,7 +21,7 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.legs import heading_by_hips
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
-from mocap.body.planar import PlanarTransform
+from mocap.body.planar import PlanarTransform, on_ground
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.edge_tables import clip_rows
 from mocap.graphs.motion_graph import MotionGraph, Node, labels_between
@@ -31,6 +31,10 @@ from mocap.quality.label_proposals import standing_frames
 from mocap.steering.tuned import TUNED
 from mocap.steering.waiting import Edges, standing_edges
 
+ARRIVALS = 2  # nodes of a stretch at which a walk may arrive. With more, walks stand before they arrive
+SKIPPED = 6  # frames between the seams that skip the rest of a stretch
+LAST_START = 0.3  # seconds before the end of a stretch at which a seam enters that skips most of it
+MOVES = 0.2  # m/s of the root, above which a body moves, as in `quality.label_proposals`
 STAND = "stand"  # a label, by which a person corrects which frames stand
 
 
@@ -42,8 +46,9 @@ class StandingGraph:
     ----------
     graph : the graph, whose walks may have dead ends.
     nodes : the nodes in standing frames.
-    arriving : those at which a body has stood for a fifth of a second.
+    arriving : those at which a body has stood for a fifth of a second, and not for much longer.
     leaving : those in the last half second of a standing stretch within a clip, from which a walk starts.
+    stretches : the first frame in which the body hardly moves around each node, and the frame after the last.
 
     Examples
     --------
@@ -59,6 +64,15 @@ class StandingGraph:
     nodes: frozenset[Node]
     arriving: frozenset[Node]
     leaving: frozenset[Node]
+    stretches: Mapping[Node, tuple[int, int]]
+
+    def stood(self, node: Node) -> int:
+        """Return for how many frames the body has stood at a standing node, in its clip."""
+        return node[1] - self.stretches[node][0]
+
+    def stands_on(self, node: Node) -> int:
+        """Return for how many more frames the body stands at a standing node, in its clip."""
+        return self.stretches[node][1] - node[1]
 
     @cached_property
     def compiled(self) -> CompiledGraph:
@@ -133,26 +147,58 @@ def with_standing(graph: MotionGraph) -> StandingGraph:
     for clip in {clip for clip, _, _ in stretches}:
         _insert(extended, graph.clips[clip], clip, added)
     _join(extended, graph, stretches, added)
-    nodes: set[Node] = set()
-    arriving: set[Node] = set()
-    leaving: set[Node] = set()
+    whole = MotionGraph(graph.clips, graph.window, extended)
+    return _with_nodes_of(stretches, whole)
+
+
+def _with_nodes_of(stretches: Sequence[tuple[int, int, int]], graph: MotionGraph) -> StandingGraph:
+    """Return a graph with the nodes in its standing stretches, and those at which walks arrive and leave."""
     settled = round(TUNED.settled_seconds * graph.fps)
     last = round(TUNED.starting_seconds * graph.fps)
+    of_nodes: dict[Node, tuple[int, int]] = {}
+    arriving: set[Node] = set()
+    leaving: set[Node] = set()
     for clip, start, stop in stretches:
-        inside = {node for node in extended if node[0] == clip and start <= node[1] <= stop}
-        nodes |= inside
-        arriving |= {node for node in inside if node[1] >= start + settled}
+        inside = sorted(node for node in graph.graph if node[0] == clip and start <= node[1] <= stop)
+        of_nodes |= dict.fromkeys(inside, (start, stop))
+        # A seam to another stretch starts no later than a window before the end of this one.
+        first = max(start, min(start + settled, stop - graph.window))
+        arriving.update([node for node in inside if node[1] >= first][:ARRIVALS])
         if stop < len(graph.clips[clip]):
-            leaving |= {node for node in inside if node[1] >= stop - last}
-    whole = MotionGraph(graph.clips, graph.window, extended)
-    return StandingGraph(whole, frozenset(nodes), frozenset(arriving), frozenset(leaving))
+            leaving.update(node for node in inside if node[1] >= stop - last)
+    # Walks may also arrive by a transition into the middle of a stretch.
+    for start_node, end_node, kind in graph.graph.edges(data="kind"):
+        enters = end_node in of_nodes and start_node not in of_nodes
+        if kind == "transition" and enters:
+            arriving.add(end_node)
+    return StandingGraph(graph, frozenset(of_nodes), frozenset(arriving), frozenset(leaving), of_nodes)
 
 
 def standing_stretches(clip: Motion) -> list[tuple[int, int]]:
-    """Return the standing stretches of a clip, each as its first frame and the one after its last."""
-    mark: Mask = clip.labels[STAND] if STAND in clip.labels else standing_frames(clip)
+    """Return the standing stretches of a clip, each as its first frame and the one after its last.
+
+    They are the frames with the label "stand", or those that stand by their pace, which is an average over
+    half a second, and those around them in which the root hardly moves.
+    """
+    is_labelled = STAND in clip.labels
+    mark: Mask = clip.labels[STAND] if is_labelled else standing_frames(clip)
     shortest = TUNED.standing_seconds * clip.fps
-    return [(start, stop) for start, stop in runs(mark).tolist() if stop - start >= shortest]
+    stretches = [(start, stop) for start, stop in runs(mark).tolist() if stop - start >= shortest]
+    if is_labelled:
+        return stretches
+    speed = np.abs(np.diff(on_ground(clip.root_positions), prepend=np.nan)) * clip.fps
+    speed[0] = 0.0
+    longer = (_still_around(speed, start, stop) for start, stop in stretches)
+    return [(start, stop) for start, stop in dict.fromkeys(longer)]
+
+
+def _still_around(speed: Array, start: int, stop: int) -> tuple[int, int]:
+    """Return a stretch with the frames around it in which the speed of the root is at most `MOVES`."""
+    moving = np.flatnonzero(speed > MOVES)
+    first, last = moving.searchsorted([start, stop])
+    longer_start = int(moving[first - 1]) + 1 if first > 0 else 0
+    longer_stop = int(moving[last]) if last < len(moving) else len(speed)
+    return longer_start, longer_stop
 
 
 def _insert(graph: nx.MultiDiGraph, motion: Motion, clip: int, added: set[Node]) -> None:
@@ -184,6 +230,7 @@ def _join(
     leave = [(clip, stop - window) for clip, start, stop in stretches if stop - start >= window]
     enter = [(clip, start) for clip, start, stop in stretches if stop - start >= window]
     pairs = [(a, b) for a in leave for b in enter if _are_apart(a, b, window)]
+    pairs += _skips(source, stretches)
     if not pairs:
         return
     costs = [cost for *_, cost in source.graph.edges(data="cost") if cost is not None]
@@ -207,6 +254,33 @@ def _join(
         if graph.has_edge(a, b):
             continue
         graph.add_edge(a, b, kind="transition", frames=window, labels=labels, cost=cost, transform=transform)
+
+
+def _skips(graph: MotionGraph, stretches: Sequence[tuple[int, int, int]]) -> list[tuple[Node, Node]]:
+    """Return seams that skip most of a stretch, so that a body can stand for less time than the clip does.
+
+    They enter a stretch shortly before the body moves, from the same stretch or from one at the end of a
+    clip, in which no walk starts.
+    """
+    settled = round(TUNED.settled_seconds * graph.fps)
+    entered: dict[int, list[Node]] = {}
+    for number, (clip, _, stop) in enumerate(stretches):
+        if stop < len(graph.clips[clip]):
+            entered[number] = [(clip, stop - round(LAST_START * graph.fps) - graph.window)]
+    everywhere = [node for nodes in entered.values() for node in nodes]
+    pairs: list[tuple[Node, Node]] = []
+    for number, (clip, start, stop) in enumerate(stretches):
+        last = stop - graph.window
+        frames = {start + graph.window, *range(start + settled, last, SKIPPED)}
+        fitting = [(clip, frame) for frame in sorted(frames) if start <= frame <= last]
+        for a in fitting:
+            pairs += [(a, b) for b in entered.get(number, everywhere) if _leads_on(a, b, graph.window)]
+    return pairs
+
+
+def _leads_on(a: Node, b: Node, window: int) -> bool:
+    """Return whether a seam leads to another clip or to a later frame."""
+    return a[0] != b[0] or b[1] - a[1] >= window
 
 
 def _are_apart(a: Node, b: Node, window: int) -> bool:

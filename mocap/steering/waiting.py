@@ -1,9 +1,14 @@
-"""Waits: walks through the standing stretches of a graph that last a given time."""
+"""Waits: walks through the standing stretches of a graph, and frames held while the body stands."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+import heapq
+from collections.abc import Collection, Mapping, Sequence
+from itertools import count
 
+import numpy as np
+
+from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
 from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph, Node
@@ -24,18 +29,32 @@ class Standing(NamedTuple):
     price: float
 
 
+class Wait(NamedTuple):
+    """A walk through standing nodes, and the number of its frames."""
+
+    edges: Sequence[Edge]
+    frames: int
+
+
+class Hold(NamedTuple):
+    """Frames that are added to a motion while its body stands.
+
+    Parameters
+    ----------
+    frame : the frame before which they are added, counted without any holds. It may be the number of frames.
+    back, ahead : the numbers of frames before and after it in which the body stands.
+    added : the number of frames to add.
+    """
+
+    frame: int
+    back: int
+    ahead: int
+    added: int
+
+
 Edges = Mapping[Node, list[Standing]]
-Waits = dict[Node, list[Edge]]
-"""A walk for each of some nodes, at which it ends (or starts, if edges are followed backwards)."""
-
-
-class _Step(NamedTuple):
-    """A node reached after some frames: the total price, the last edge, and the node and frames before."""
-
-    price: float
-    edge: Edge | None
-    node: Node
-    earlier: int
+Waits = dict[Node, Wait]
+"""A wait for each of some nodes, at which it ends (or starts, if edges are followed backwards)."""
 
 
 def standing_edges(graph: MotionGraph, nodes: Collection[Node], *, backwards: bool = False) -> Edges:
@@ -59,94 +78,109 @@ def standing_edges(graph: MotionGraph, nodes: Collection[Node], *, backwards: bo
     return edges
 
 
-def find_waits(edges: Edges, start: Node, frames: int, slack: int) -> Waits:
-    """Find walks from a standing node through standing nodes that last about a given time.
-
-    Of the walks to a node, the one whose duration is nearest is returned, of these that with the smallest sum
-    of squared seam costs, by dynamic programming over the frames.
+def shortest_waits(edges: Edges, start: Node, *, smoothest: bool = False) -> Waits:
+    """Find the shortest wait from a standing node to each one that can be reached (Dijkstra's algorithm).
 
     Parameters
     ----------
     edges : from `standing_edges`. Backwards, walks lead to `start`.
     start : a standing node.
-    frames : the duration.
-    slack : the largest difference from it. If no walk is within it, the result is empty.
+    smoothest : whether to find the waits with the least sum of squared seam costs, and of these the shortest.
 
     Examples
     --------
-    >>> edges = {(0, 0): [Standing(((0, 0), (0, 60), 0), (0, 60), 60, 0.0)]}
-    >>> find_waits(edges, (0, 0), frames=58, slack=3)
-    {(0, 60): [((0, 0), (0, 60), 0)]}
+    A stretch of 60 frames, and a seam that skips most of them:
+
+    >>> clip = Standing(((0, 0), (0, 60), 0), (0, 60), 60, 0.0)
+    >>> skip = Standing(((0, 0), (0, 60), 1), (0, 60), 10, 0.0004)
+    >>> shortest_waits({(0, 0): [clip, skip]}, (0, 0))[0, 60].frames
+    10
+    >>> shortest_waits({(0, 0): [clip, skip]}, (0, 0), smoothest=True)[0, 60].frames
+    60
     """
-    reached = _reached(edges, start, frames + slack)
-    waits: Waits = {}
-    for offset in sorted(range(-slack, slack + 1), key=abs):
-        duration = frames + offset
-        for node in reached[duration] if duration >= 0 else ():
-            if node not in waits:
-                waits[node] = _trace(reached, node, duration)
-    return waits
+    reached: dict[Node, _Reached] = {}
+    order = count()  # so that equal keys are taken in the order in which they are found
+    queue = [(0.0, 0.0, next(order), start, _Reached(0, start, None))]
+    while queue:
+        first_key, second_key, _, node, step = heapq.heappop(queue)
+        if node in reached:
+            continue
+        reached[node] = step
+        for edge in edges.get(node, ()):
+            keys = (edge.price, edge.frames) if smoothest else (edge.frames, edge.price)
+            longer = _Reached(step.frames + edge.frames, node, edge.edge)
+            sums = (first_key + keys[0], second_key + keys[1])
+            heapq.heappush(queue, (*sums, next(order), edge.node, longer))
+    return {node: _trace(reached, node) for node in reached}
 
 
-def wait_durations(edges: Edges, starts: Iterable[Node], frames: int) -> dict[Node, list[int]]:
-    """Return the durations of all waits from some nodes, at most so many frames, by their last nodes.
+class _Reached(NamedTuple):
+    """How a node is reached: after how many frames, from which node and by which edge."""
 
-    Examples
-    --------
-    >>> edges = {(0, 0): [Standing(((0, 0), (0, 60), 0), (0, 60), 60, 0.0)]}
-    >>> wait_durations(edges, [(0, 0)], frames=90)
-    {(0, 0): [0], (0, 60): [60]}
-    """
-    reached: list[set[Node]] = [set() for _ in range(frames + 1)]
-    reached[0].update(starts)
-    durations: dict[Node, list[int]] = {}
-    for duration, nodes in enumerate(reached):
-        for node in nodes:
-            durations.setdefault(node, []).append(duration)
-            for edge in edges.get(node, ()):
-                if duration + edge.frames <= frames:
-                    reached[duration + edge.frames].add(edge.node)
-    return durations
+    frames: int
+    source: Node
+    edge: Edge | None
 
 
-def longest_wait(edges: Edges, start: Node, frames: int) -> list[Edge]:
-    """Find the longest wait from a node, of at most so many frames.
-
-    Examples
-    --------
-    >>> longest_wait({(0, 0): [Standing(((0, 0), (0, 60), 0), (0, 60), 60, 0.0)]}, (0, 0), 90)
-    [((0, 0), (0, 60), 0)]
-    """
-    reached = _reached(edges, start, frames)
-    last = max(frame for frame, steps in enumerate(reached) if steps)
-    return _trace(reached, next(iter(reached[last])), last)
-
-
-def _reached(edges: Edges, start: Node, frames: int) -> list[dict[Node, _Step]]:
-    """Return the nodes that are reached after each number of frames, with the best last step."""
-    reached: list[dict[Node, _Step]] = [{} for _ in range(frames + 1)]
-    reached[0][start] = _Step(0.0, None, start, 0)
-    for frame, steps in enumerate(reached):
-        for node, step in steps.items():
-            for edge in edges.get(node, ()):
-                later = frame + edge.frames
-                price = step.price + edge.price
-                if later <= frames and _is_better(price, reached[later].get(edge.node)):
-                    reached[later][edge.node] = _Step(price, edge.edge, node, frame)
-    return reached
-
-
-def _is_better(price: float, step: _Step | None) -> bool:
-    """Return whether a price is below that of a step, if there is one."""
-    return step is None or price < step.price
-
-
-def _trace(reached: list[dict[Node, _Step]], node: Node, frame: int) -> list[Edge]:
-    """Return the edges by which a node is reached after `frame` frames, in their order in time."""
+def _trace(reached: Mapping[Node, _Reached], node: Node) -> Wait:
+    """Return the wait by which a node is reached, with its edges in their order in time."""
     walk: list[Edge] = []
-    step = reached[frame][node]
+    step = reached[node]
     while step.edge is not None:
         walk.append(step.edge)
-        step = reached[step.earlier][step.node]
+        step = reached[step.source]
     is_backwards = bool(walk) and walk[0][0] == node
-    return walk if is_backwards else walk[::-1]
+    return Wait(walk if is_backwards else walk[::-1], reached[node].frames)
+
+
+def longest_stand(edges: Edges, start: Node, frames: int) -> Wait:
+    """Return the longest wait from a node without a seam, of at most so many frames.
+
+    Examples
+    --------
+    >>> longest_stand({(0, 0): [Standing(((0, 0), (0, 60), 0), (0, 60), 60, 0.0)]}, (0, 0), 90).frames
+    60
+    """
+    within_clips = {node: [edge for edge in leaving if edge.price == 0] for node, leaving in edges.items()}
+    waits = shortest_waits(within_clips, start).values()
+    return max((wait for wait in waits if wait.frames <= frames), key=lambda wait: wait.frames)
+
+
+def held_frames(frames: int, holds: Sequence[Hold]) -> Array:
+    """Return the fractional frame of a motion that is shown in each frame of the same motion with holds.
+
+    A held body does not freeze: its time sways to and fro over the frames in which it stands, as a sine, and
+    no faster than the motion itself. The hold begins and ends in the frame in which it is made.
+
+    Parameters
+    ----------
+    frames : the number of frames of the motion.
+    holds : in the order of their frames.
+
+    Examples
+    --------
+    Three frames are added before the last one of five:
+
+    >>> held_frames(5, [Hold(4, 2, 0, 3)]).round(1).tolist()
+    [0.0, 1.0, 2.0, 3.0, 4.0, 3.3, 3.3, 4.0]
+    """
+    parts = []
+    start = 0
+    for hold in holds:
+        parts += [np.arange(start, hold.frame, dtype=float), _swaying(hold, frames)]
+        start = hold.frame
+    return np.concatenate([*parts, np.arange(start, frames, dtype=float)])
+
+
+def _swaying(hold: Hold, frames: int) -> Array:
+    """Return the frames of a hold: a sine around the middle of the standing frames, from its frame on."""
+    base = min(hold.frame, frames - 1)
+    reach = (hold.back + hold.ahead) / 2
+    if reach == 0:
+        return np.full(hold.added, float(base))
+    middle = (hold.ahead - hold.back) / 2
+    periods = max(1, int(hold.added / (2 * np.pi * reach)))
+    scale = min(1.0, hold.added / (2 * np.pi * reach * periods))
+    fraction = np.arange(hold.added) / hold.added
+    phase = 2 * np.pi * periods * fraction - np.arcsin(middle / reach)
+    return np.asarray(base + scale * (middle + reach * np.sin(phase)))

@@ -47,6 +47,7 @@ def walk_parts(
     licences: Mapping[str, str] | None = None,
     *,
     jolts: bool = True,
+    held: Sequence[tuple[int, int]] = (),
 ) -> Iterator[WalkPart]:
     """Yield the parts of a walk in order. Stretches of a clip that follow each other are one part.
 
@@ -55,6 +56,8 @@ def walk_parts(
     motion_graph, walk : as for `synthesis.to_motion`.
     licences : the licence of each clip, by name; by default none is known.
     jolts : whether to measure the jolts of seams.
+    held : pairs of a frame of the walk and the number of frames that are added before it, by which the parts
+        after it start later.
 
     Raises
     ------
@@ -83,7 +86,8 @@ def walk_parts(
             first = part[0][0]
             of_part = [edge for _, edge in part]
             jolt = _jolt(motion_graph, walk, first) if is_seam and jolts else None
-            yield _part(motion_graph, of_part, frame / motion_graph.fps, jolt, licences or {})
+            added = sum(count for place, count in held if place <= frame)
+            yield _part(motion_graph, of_part, (frame + added) / motion_graph.fps, jolt, licences or {})
             frame += sum(edges[edge]["frames"] for edge in of_part)
 
 

@@ -16,8 +16,9 @@ from mocap.files import DirectedPoint, Direction
 from mocap.steering import direct, with_standing
 from mocap.steering.anchoring import Anchor, fit_to_anchors, headings_in, rotate_at_ends
 from mocap.steering.detours import along_line, around_discs
+from mocap.steering.direction_legs import line_with_headings
 from mocap.steering.direction_search import least_sums
-from mocap.steering.waiting import Standing, find_waits, wait_durations
+from mocap.steering.waiting import Hold, Standing, held_frames, shortest_waits
 from mocap.synthesis.walk_to_motion import require_walk
 from tests.refusals import refused
 
@@ -36,6 +37,13 @@ def speed(motion, frame):
     return float(np.hypot(*steps[frame])) * motion.fps
 
 
+def standing_around(motion, frame):
+    steps = np.hypot(*np.diff(motion.root_positions[:, [0, 2]], axis=0).T) * motion.fps
+    moving = np.flatnonzero(steps > 0.2)
+    after = moving.searchsorted(frame)
+    return moving[after - 1] + 1, moving[after]
+
+
 @pytest.mark.parametrize("facing", [0.0, math.pi / 2, -2.5])
 def test_a_walk_starts_and_ends_standing_where_and_as_it_is_told(standing, facing):
     asked = Direction([P(1, 0), P(1, 5)], start="stand", end="stand", facing=facing)
@@ -50,11 +58,11 @@ def test_a_walk_starts_and_ends_standing_where_and_as_it_is_told(standing, facin
 def test_a_wait_lasts_as_long_as_asked_and_the_body_turns_before_it(standing):
     walked = direct(standing, Direction([P(0, 0), P(0, 4, heading=1.0, wait=2.0), P(3, 4)], end="stand"))
     motion = walked.motion()
-    arrives = walked.passes[1]
-    still = motion.root_positions[arrives : arrives + 55, [0, 2]]
+    start, stop = standing_around(motion, walked.passes[1])
+    assert abs((stop - start) / motion.fps - 2.0) < 0.3
+    still = motion.root_positions[start:stop, [0, 2]]
     assert np.hypot(*(still - (0, 4)).T).max() < 0.15
-    facing = headings_in(motion)[arrives : arrives + 55]
-    assert np.abs(facing - 1.0).max() < 0.2
+    assert np.abs(headings_in(motion)[start + 6 : stop - 6] - 1.0).max() < 0.2
     assert np.hypot(*(motion.root_positions[-1, [0, 2]] - (3, 4))) < 0.1
 
 
@@ -81,16 +89,65 @@ def test_times_that_no_pace_keeps_leave_the_walk_as_it_is_without_times(standing
     assert max(part.metres for part in hurried.corrections) < 0.5
 
 
-@given(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3), st.integers(1, 9)), max_size=8))
-def test_durations_of_waits_are_those_for_which_a_wait_is_found(listed):
+@given(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3), st.integers(1, 9), st.integers(0, 5))))
+def test_shortest_waits_are_walks_and_no_edge_shortens_or_smooths_them(listed):
     edges = {}
-    for key, (start, end, frames) in enumerate(listed):
+    for key, (start, end, frames, price) in enumerate(listed):
         edge = ((0, start), (0, end), key)
-        edges.setdefault((0, start), []).append(Standing(edge, (0, end), frames, 0.0))
-    durations = wait_durations(edges, [(0, 0)], 20)
-    for frames in range(21):
-        reached = {node for node, possible in durations.items() if frames in possible}
-        assert reached == set(find_waits(edges, (0, 0), frames, 0))
+        edges.setdefault((0, start), []).append(Standing(edge, (0, end), frames, float(price)))
+    steps = {step.edge: step for leaving in edges.values() for step in leaving}
+    shortest = shortest_waits(edges, (0, 0))
+    smoothest = shortest_waits(edges, (0, 0), smoothest=True)
+    prices = {node: sum(steps[edge].price for edge in wait.edges) for node, wait in smoothest.items()}
+    for node, wait in shortest.items():
+        assert [(0, 0), *(end for _, end, _ in wait.edges)][-1] == node
+        assert sum(steps[edge].frames for edge in wait.edges) == wait.frames
+        for step in edges.get(node, ()):
+            assert shortest[step.node].frames <= wait.frames + step.frames
+            assert prices[step.node] <= prices[node] + step.price
+
+
+@given(st.integers(1, 30), st.integers(0, 20), st.integers(0, 20), st.integers(1, 200))
+def test_held_frames_stay_where_the_body_stands_and_go_no_faster_than_the_motion(frame, back, ahead, added):
+    back = min(back, frame)
+    held = held_frames(60, [Hold(frame, back, ahead, added)])
+    assert len(held) == 60 + added
+    part = held[frame : frame + added + 1]
+    assert part[0] == part[-1] == frame
+    assert part.min() >= frame - back - 1e-9 and part.max() <= frame + ahead + 1e-9
+    assert np.abs(np.diff(part)).max() < 1 + 1e-9
+
+
+def test_a_wait_is_held_where_clips_stand_for_a_shorter_time(standing):
+    walked = direct(standing, Direction([P(0, 0), P(0, 4, wait=9.0), P(3, 4)], end="stand"))
+    require_walk(walked.graph, walked.walk)
+    assert walked.held_seconds > 5 and "held" in walked.report()
+    motion = walked.motion()
+    start, stop = standing_around(motion, walked.passes[1])
+    assert abs((stop - start) / motion.fps - 9.0) < 0.3
+    assert abs(walked.arrivals[1].waited - 9.0) < 0.3
+
+
+def test_a_wait_that_is_shorter_than_clips_stand_is_said(standing):
+    with pytest.warns(MocapWarning, match=r"A wait of 0.2 s lasts .* the clips there stand so long"):
+        direct(standing, Direction([P(0, 0), P(0, 4, wait=0.2), P(3, 4)], end="stand"))
+
+
+def test_points_and_headings_in_stride_are_met_by_all_of_the_walk(standing):
+    asked = [P(0, 0), P(0, 3, heading=0.4), P(1.5, 5, heading=math.pi / 2), P(4.5, 5)]
+    walked = direct(standing, Direction(asked, start="stand", end="stand"))
+    for arrival in walked.arrivals[1:3]:
+        assert arrival.off < 0.02 and abs(arrival.turned) < math.radians(2)
+    motion = walked.motion()
+    assert abs(headings_in(motion)[walked.passes[2]] - math.pi / 2) < math.radians(3)
+
+
+def test_a_later_time_is_kept_by_starting_later_and_the_wait_stays_as_asked(standing):
+    asked = [P(0, 0), P(0, 5, wait=2.0), P(3.5, 5, t=16.0)]
+    walked = direct(standing, Direction(asked, start="stand", end="stand"))
+    assert abs(walked.arrivals[-1].late) < 0.1
+    assert abs(walked.arrivals[1].waited - 2.0) < 0.3
+    assert speed(walked.motion(), 30) < 0.2  # it does not start at once
 
 
 def test_a_walk_goes_around_discs_which_its_root_does_not_enter(standing):
@@ -178,8 +235,24 @@ def test_the_shortest_sums_are_those_of_trying_all_ways(standing):
 
 
 def test_waits_backwards_are_walks_that_lead_to_the_node():
-    forwards = {(0, 0): [Standing(((0, 0), (0, 9), 0), (0, 9), 9, 0.0)]}
     backwards = {(0, 9): [Standing(((0, 0), (0, 9), 0), (0, 0), 9, 0.0)]}
-    assert find_waits(forwards, (0, 0), 9, 0) == {(0, 9): [((0, 0), (0, 9), 0)]}
-    assert find_waits(backwards, (0, 9), 9, 0) == {(0, 0): [((0, 0), (0, 9), 0)]}
-    assert find_waits(forwards, (0, 0), 5, 1) == {}
+    wait = shortest_waits(backwards, (0, 9))[0, 0]
+    assert (wait.edges, wait.frames) == ([((0, 0), (0, 9), 0)], 9)
+
+
+def test_a_body_that_hardly_moves_is_turned_without_a_division_by_zero():
+    clip = resample(sample("stop_and_go"), 30)[:40]
+    roots = clip.root_positions.copy()
+    roots[-1] += (0, 0, 0.05)  # only the last frame moves
+    assert np.isfinite(rotate_at_ends(replace(clip, root_positions=roots), 0.0, 1.0).rotations).all()
+
+
+def test_lines_pass_points_in_the_direction_of_their_headings():
+    points = [P(0, 0), P(0, 2, heading=0.5), P(2, 4)]
+    line = line_with_headings(points)
+    place = line.index(P(0.0, 2.0))
+    before, after = line[place - 1], line[place + 1]
+    for step in ((0 - before.x, 2 - before.z), (after.x, after.z - 2)):
+        assert abs(math.atan2(*step) - 0.5) < 0.15
+    sideways = [P(0, 0), P(0, 2, heading=1.6), P(0, 4)]
+    assert line_with_headings(sideways) == sideways
