@@ -21,6 +21,7 @@ from _trials import Clips, Collection, Row, Study, Trial, cmu
 
 from mocap._shared.arrays import Array, runs
 from mocap.body import Motion, find_legs, joint_positions, rotations
+from mocap.body.foot_joints import feet_of, toe_tips
 from mocap.editing import (
     Pins,
     edit,
@@ -36,7 +37,7 @@ from mocap.editing import (
 from mocap.editing.foot_cleaning import raised
 from mocap.editing.solver import solve
 from mocap.editing.stages import Stage
-from mocap.editing.toes import bend_toes, lowest_allowed, toe_tips
+from mocap.editing.toes import bend_toes, lowest_allowed
 from mocap.feet import clean_up, mark_plants
 
 SECONDS = 5.0  # of a clip
@@ -210,8 +211,9 @@ def toes(clips: Clips) -> Row:
     sunk = []
     jolts = []
     for walk in walks(clips):
-        allowed = lowest_allowed(walk) + HIGHER
-        result = bend_toes(walk, allowed)
+        feet = feet_of(walk)
+        allowed = lowest_allowed(walk, feet) + HIGHER
+        result = bend_toes(walk, allowed, feet)
         for leg in find_legs(walk.skeleton):
             tip_joints = toe_tips(walk.skeleton, leg)
             below = allowed[:, tip_joints] - joint_positions(result)[:, tip_joints, 1]
@@ -226,10 +228,11 @@ def sunken(clips: Clips) -> Row:
     changed = 0
     sunk = []
     for walk in walks(clips):
-        allowed = lowest_allowed(walk)
+        feet = feet_of(walk)
+        allowed = lowest_allowed(walk, feet)
         for metres in (0.002, 0.006):
             low = replace(walk, root_positions=walk.root_positions - [0, metres, 0])
-            result = raised(low, allowed - metres)
+            result = raised(low, allowed - metres, feet)
             changed += not np.array_equal(result.root_positions, low.root_positions)
             sunk.append(1000 * max(0.0, -float(joint_positions(result)[..., 1].min())))
     return {"changed": changed, "sunk, mm": max(sunk)}

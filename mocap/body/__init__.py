@@ -20,10 +20,11 @@ Reading order (notebooks 01, 03)
 13. `limb_roles`: left and right, and the roles of the joints of a limb
 14. `limb_search`: legs and arms by bones and motion, whatever the names of joints
 15. `limbs`: legs and arms, and the role of each joint in a body
-16. `limb_partners`: joints of left and right limbs that are mirror images
-17. `body_sides`: left, right and the head, by names or roles
-18. `fingerprints`: hashes that identify a clip under any name
-19. `tuned`: the constants that trials chose
+16. `foot_joints`: ankles, what is below them, and the tips of toes
+17. `limb_partners`: joints of left and right limbs that are mirror images
+18. `body_sides`: left, right and the head, by names or roles
+19. `fingerprints`: hashes that identify a clip under any name
+20. `tuned`: the constants that trials chose
 
 References
 ----------

@@ -10,6 +10,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap._shared.records import NamedTuple
+from mocap.body.foot_joints import Feet
 from mocap.editing.bodies import Body
 from mocap.editing.constraint_checks import require_reachable
 from mocap.editing.constraints import Pins
@@ -17,7 +18,7 @@ from mocap.editing.pins import join_pins
 from mocap.editing.poses import Poses
 from mocap.editing.solver import EVERY_FRAME, solve_stages
 from mocap.editing.stages import Stage
-from mocap.editing.toes import SLACK, Feet, bend_toes
+from mocap.editing.toes import SLACK, bend_toes
 
 
 class Heights(NamedTuple):
@@ -91,9 +92,9 @@ def floor_for(poses: Poses, heights: Heights) -> Pins:
 
     Examples
     --------
+    >>> from mocap.body.foot_joints import feet_of
     >>> from mocap.datasets import sample
     >>> from mocap.editing.poses import poses_of
-    >>> from mocap.editing.toes import feet_of
     >>> walk = sample("walk_straight")[:9]
     >>> head = walk.skeleton.index("head")
     >>> floor = np.zeros((9, 38))

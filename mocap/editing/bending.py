@@ -11,15 +11,13 @@ from mocap._shared.quantities import check_radians
 from mocap._shared.records import dataclass
 from mocap.body.ground_path import GroundPath, as_path
 from mocap.body.motion import Motion
-from mocap.editing.foot_cleaning import raised
+from mocap.editing.foot_cleaning import clean_feet
 from mocap.editing.line_rounding import RoundedLine, round_line
 from mocap.editing.path_editing import Ride, moving_frames, plants_kept, ride_of
 from mocap.editing.pins import with_plants
-from mocap.editing.toes import lowest_allowed
 from mocap.editing.tuned import TUNED
 from mocap.editing.turning import SlowedWalk, lean, slow_down
 from mocap.errors import MocapError, shortened, warn
-from mocap.feet.footskate import clean_up
 
 LIMIT = TUNED.turning_limit  # radians per second
 WARNED = 2 * np.pi  # radians per second: no walk turns faster; on lines that turn fast, walks reach 1.7
@@ -168,7 +166,7 @@ def bend(
     source = moving_frames(ride.path, slowed.source_along)
     upright = (target @ source.inverse()).apply_motion(slowed.motion)
     laid, held = lean(upright, np.asarray(target.angle), slowed.lean)
-    cleaned = raised(clean_up(laid, held=held), lowest_allowed(slowed.motion))
+    cleaned = clean_feet(laid, original=slowed.motion, held=held)
     bent = Bent(cleaned, laid, path, line, replace(ride, along=slowed.source_along), slowed.along)
     fastest = np.abs(bent.turned).max(initial=0.0)
     if fastest > max(WARNED, 2 * limit):

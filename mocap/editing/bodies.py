@@ -112,9 +112,9 @@ def body_rotating(
     factors = {skeleton.index(name): factor for name, factor in (prices or {}).items()}
     if not all(np.isfinite(factor) and factor > 0 for factor in factors.values()):
         raise MocapError(f"Factors of prices are above 0, got {dict(prices or {})}.")
-    rotates = rotating_joints(clip)
     paths = [skeleton.path_to_root(joint) for joint in range(len(skeleton))]
     positions = poses_of(motion[:: max(1, len(clip) // SAMPLED)]).positions
+    rotates = rotating_joints(clip)
     shown = clip[:: max(1, len(clip) // SHOWN)]
     joints: list[int] = []
     axes = [np.zeros((0, 3))]

@@ -23,13 +23,12 @@ from mocap.body import rotations
 from mocap.body.concatenation import concatenate
 from mocap.body.motion import Motion, require_motion, resample
 from mocap.body.planar import PlanarTransform, align_frames, heading
-from mocap.editing.foot_cleaning import raised
+from mocap.editing.foot_cleaning import clean_feet
 from mocap.editing.path_editing import plants_kept
-from mocap.editing.toes import lowest_allowed, lowest_heights
+from mocap.editing.toes import lowest_heights
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError, MocapWarning, shortened, warn
 from mocap.feet.footplants import mark_plants
-from mocap.feet.footskate import clean_up
 from mocap.matching import distance_grids
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.point_clouds import point_cloud
@@ -280,7 +279,7 @@ def _cleaned(cycle: Motion, lowest: Array) -> Motion:
     start = neighbours * (len(cycle) - 1)
     middle = slice(start, start + len(cycle))
     with warnings.catch_warnings(action="ignore", category=MocapWarning):  # of frames in all rounds
-        cleaned = raised(clean_up(rounds), lowest_allowed(rounds, lowest))[middle]
+        cleaned = clean_feet(rounds, lowest)[middle]
     kept = plants_kept(cleaned, rounds[middle])
     if kept < 1:
         released = f"'{shortened(cycle.name)}': {1 - kept:.0%} of the planted frames are let go"

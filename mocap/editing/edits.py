@@ -10,17 +10,15 @@ from mocap.editing.bodies import Body, priced
 from mocap.editing.constraint_checks import require_pins_of, warn_of_errors
 from mocap.editing.constraints import Pins
 from mocap.editing.pins import join_pins
-from mocap.editing.poses import MotionOrPoses, Poses, motion_of, poses_of, with_part
+from mocap.editing.poses import MotionOrPoses, motion_of, poses_of, with_part
 from mocap.editing.solver import EVERY_FRAME
 from mocap.editing.stages import Stage, closing_stages
 from mocap.editing.standing import (
     CLOSED,
-    Region,
     Source,
     allowed_by,
     mark_met,
     plants_within,
-    region_around,
     source_of,
 )
 from mocap.editing.tuned import TUNED
@@ -102,10 +100,6 @@ class Section(NamedTuple):
         """The frames that may change, counted from the first of the outer ones."""
         return slice(self.inner.start - self.outer.start, self.inner.stop - self.outer.start)
 
-    def counted_from(self, first: int) -> "Section":
-        """Return the section with frames counted from another one than the first."""
-        return Section(*(slice(frames.start - first, frames.stop - first) for frames in self))
-
 
 def section_of(frames: slice, count: int, fps: float) -> Section:
     """Return the section for frames that may change, of a motion of `count` frames."""
@@ -119,8 +113,8 @@ def brought(
 ) -> Motion:
     """Change a motion as `edit` does, with the plants and the floor of the motion that it was made of.
 
-    Of both motions only the frames near those that may change are looked at, with all frames of plants that
-    reach there. The whole of them shows which joints are hinges, and how low feet are.
+    Only the frames near those that may change are solved for. The whole of the motion shows which joints are
+    hinges, that of the source where feet stand, and how low they are.
 
     Parameters
     ----------
@@ -128,41 +122,30 @@ def brought(
     source : the motion that it was made of, F frames.
     body, frames : as for `edit`.
     """
-    if not len(range(len(motion))[frames]):  # nothing may change
-        warn_of_errors(motion, pins.indices, pins.errors(poses_of(motion)), CLOSED)
-        return motion
+    if len(range(len(motion))[frames]):
+        return with_part(motion, _changed(motion, source, pins, body, frames), frames)
+    # No frame may change.
+    warn_of_errors(motion, pins.indices, pins.errors(poses_of(motion)), CLOSED)
+    return motion
+
+
+def _changed(motion: Motion, source: Source, pins: Pins, body: Body | None, frames: slice) -> Motion:
+    """Return the frames that `brought` changes."""
     section = section_of(frames, len(motion), motion.fps)
-    region = region_around(source, section.outer)
-    base = region.poses if source.clip is motion else poses_of(motion[region.frames])
-    changed = _changed(base, region, source, pins[region.frames], section, edit_solving(motion, body))
-    return with_part(motion, changed, frames)
-
-
-def _changed(  # noqa: PLR0913 (what changes, where, and how)
-    base: Poses, region: Region, source: Source, pins: Pins, section: Section, solving: Solving
-) -> Motion:
-    """Return the frames of a section that may change, changed.
-
-    Parameters
-    ----------
-    base, pins : the motion and its constraints in the frames of the region.
-    region, source : the motion that it was made of.
-    section : frames of the whole motion.
-    solving : how constraints are solved for.
-    """
-    local = section.counted_from(region.start)
+    inner = section.inner_of_outer
+    source_poses = poses_of(source.clip[section.outer])
+    base = source_poses if source.clip is motion else poses_of(motion[section.outer])
     stays = np.ones(len(base), bool)
-    stays[local.inner] = False
-    allowed = allowed_by(pins, region.poses, source)[local.outer]
-    standing = region.poses.with_frames_of(base, stays)
-    steady = plants_within(region.plants, standing, local.inner, source.legs)
-    wanted = join_pins(steady, pins)[local.outer]
-    first_frame = section.outer.start
-    solving = solving._replace(frames=section.inner_of_outer, first_frame=first_frame)
-    heights = Heights(source.feet, allowed, allowed, region.plants.joints)
-    changed = meet_above_floor(base[local.outer], wanted, solving, heights)
-    marked = mark_met(changed, wanted, region.plants[local.outer], first_frame)
-    return marked[section.inner_of_outer]
+    stays[inner] = False
+    plants = source.plants[section.outer]
+    steady = plants_within(plants, source_poses.with_frames_of(base, stays), inner, source.feet.legs)
+    wanted = join_pins(steady, pins[section.outer])
+    allowed = allowed_by(pins[section.outer], source_poses, source)
+    heights = Heights(source.feet, allowed, allowed, plants.joints)
+    solving = edit_solving(motion, body)._replace(frames=inner, first_frame=section.outer.start)
+    changed = meet_above_floor(base, wanted, solving, heights)
+    marked = mark_met(changed, wanted, plants, section.outer.start)
+    return marked[inner]
 
 
 def edit_solving(clip: MotionOrPoses, body: Body | None = None) -> Solving:

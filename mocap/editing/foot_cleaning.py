@@ -1,28 +1,39 @@
 """Clean feet: they do not slide where they stand, and no joint is under the floor."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from mocap._shared.arrays import Array
+from mocap.body.foot_joints import Feet, feet_of
 from mocap.body.motion import Motion
 from mocap.editing.above_floor import Heights, meet_above_floor
 from mocap.editing.constraints import Pins
 from mocap.editing.edits import edit_solving
 from mocap.editing.pins import plant_pins
 from mocap.editing.poses import poses_of
-from mocap.editing.toes import Feet, feet_of, lowest_allowed
+from mocap.editing.toes import lowest_allowed
 from mocap.editing.tuned import TUNED
 from mocap.feet.footskate import clean_up
 
 UP = np.array([0.0, 1.0, 0.0])
 
 
-def clean_feet(motion: Motion, lowest: Array | None = None) -> Motion:
+def clean_feet(
+    motion: Motion,
+    lowest: Array | None = None,
+    *,
+    original: Motion | None = None,
+    held: Mapping[int, Array] | None = None,
+) -> Motion:
     """Remove foot sliding by `feet.clean_up`, and keep all joints above the floor.
 
     Parameters
     ----------
     motion : F frames of J joints; its `contacts` say when feet stand.
     lowest : as for `lowest_allowed`.
+    original : the motion of which it was made, with heights that are allowed; by default the motion itself.
+    held : as for `feet.clean_up`.
 
     Raises
     ------
@@ -42,10 +53,13 @@ def clean_feet(motion: Motion, lowest: Array | None = None) -> Motion:
     True
     """
     poses = poses_of(motion)
-    return raised(clean_up(motion, poses=poses.world), lowest_allowed(poses, lowest))
+    source = poses if original is None else poses_of(original)
+    cleaned = clean_up(motion, held=held, poses=poses.world)
+    feet = feet_of(cleaned)
+    return raised(cleaned, lowest_allowed(source, feet, lowest), feet)
 
 
-def raised(motion: Motion, allowed: Array) -> Motion:
+def raised(motion: Motion, allowed: Array, feet: Feet) -> Motion:
     """Raise the tips of toes that are lower than allowed, and other joints under the floor, y = 0.
 
     Toes bend. If other joints are lower than allowed under the floor, by more than 3 mm, the smallest smooth
@@ -55,9 +69,9 @@ def raised(motion: Motion, allowed: Array) -> Motion:
     ----------
     motion : F frames of J joints, with clean feet. Plants stay where they are, or rise to the floor.
     allowed : the lowest height of each joint, (F, J), metres.
+    feet : from `feet_of`.
     """
     poses = poses_of(motion)
-    feet = feet_of(poses)
     plants = plant_pins(poses)
     under_floor = np.minimum(allowed, 0.0)
     rise = _rise_of_plants(plants, feet, under_floor)

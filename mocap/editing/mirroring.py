@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
 from mocap.body import body_sides, rotations
+from mocap.body.foot_joints import feet_of
 from mocap.body.limb_partners import limb_partners
 from mocap.body.limbs import roles, with_roles
 from mocap.body.motion import Motion
@@ -248,7 +249,9 @@ def mirror_above_floor(motion: Motion) -> Motion:
     partners, *_ = symmetry(with_roles(motion).skeleton)
     poses = poses_of(motion)
     mirrored = poses_of(mirror(motion))
-    bent = mirrored.updated(bend_toes(mirrored, lowest_allowed(poses)[:, partners]))
+    feet = feet_of(mirrored.motion)
+    allowed = lowest_allowed(poses, feet)[:, partners]
+    bent = mirrored.updated(bend_toes(mirrored, allowed, feet))
     lowest = min(0.0, float(poses.positions[..., 1].min()))
     rise = lowest - float(bent.positions[..., 1].min())
     if rise <= SLACK:

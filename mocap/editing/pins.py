@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mocap._shared.arrays import Array, Mask
+from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.legs import Leg
 from mocap.body.limbs import find_legs, with_roles
@@ -13,10 +13,10 @@ from mocap.body.motion import Motion, require_motion
 from mocap.editing.boxes import PositionBoxes, RelativeRotation, RotationBoxes
 from mocap.editing.constraint_checks import require_pins_of
 from mocap.editing.constraints import Pins
-from mocap.editing.poses import Frames, MotionOrPoses, Poses, poses_of
+from mocap.editing.poses import Frames, MotionOrPoses, poses_of
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError
-from mocap.feet.ankle_targets import place_plants
+from mocap.feet.ankle_targets import place_plants, places_at_heights
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import settled_marks
 
@@ -174,39 +174,38 @@ def plant_pins(
     """
     poses = poses_of(motion)
     legs = find_legs(poses.motion.skeleton) if legs is None else legs
-    return pins_of_plants(poses, legs, settled_marks(poses.motion, legs), heights)
+    feet = [joint for leg in legs for joint in (leg.ankle, leg.ball)]
+    return pins_of_plants(poses.motion, legs, poses.positions[:, feet], heights)
 
 
 def pins_of_plants(
-    poses: Poses, legs: Sequence[Leg], leg_marks: Mask, heights: ArrayLike | None = None
+    motion: Motion, legs: Sequence[Leg], positions: Array, heights: ArrayLike | None = None
 ) -> Pins:
-    """Hold ankles and balls as `plant_pins` does, while marks (legs, 2, F) say that they stand."""
-    skeleton = poses.motion.skeleton
+    """Hold planted ankles and balls as `plant_pins` does.
+
+    Parameters
+    ----------
+    motion, legs, heights : as for `plant_pins`.
+    positions : of the ankle and the ball of each leg in turn, (F, 2 legs, 3), metres.
+    """
+    marks = settled_marks(motion, legs)
+    tracks = np.swapaxes(positions, 0, 1).reshape(len(legs), 2, len(motion), 3)
     parts = []
-    for number, (leg, marks) in enumerate(zip(legs, leg_marks, strict=True)):
-        tracks = np.swapaxes(poses.positions[:, [leg.ankle, leg.ball]], 0, 1)  # (2, F, 3)
-        length = float(leg.lengths(skeleton)[2])
+    for number, leg in enumerate(legs):
+        joints = (tracks[number, 0], tracks[number, 1])
+        stands = (marks[number, 0], marks[number, 1])
+        length = float(leg.lengths(motion.skeleton)[2])
         if heights is None:
-            places = place_plants((tracks[0], tracks[1]), (marks[0], marks[1]), length)
+            places = place_plants(joints, stands, length)
         else:
-            places = _places_at_heights(tracks, marks, length, np.asarray(heights, float)[number])
-        planted = marks[..., None]
+            places = places_at_heights(joints, stands, length, np.asarray(heights, float)[number])
+        planted = marks[number][..., None]
         low = np.where(planted, places, -np.inf)
         high = np.where(planted, places, np.inf)
-        joints = leg[2:] if leg.has_ball else leg[2:3]
-        boxes = slice(len(joints))
-        parts.append(Pins(joints, np.swapaxes(low[boxes], 0, 1), np.swapaxes(high[boxes], 0, 1)))
+        held = leg[2:] if leg.has_ball else leg[2:3]
+        boxes = slice(len(held))
+        parts.append(Pins(held, np.swapaxes(low[boxes], 0, 1), np.swapaxes(high[boxes], 0, 1)))
     return join_pins(*parts)
-
-
-def _places_at_heights(tracks: Array, marks: Mask, length: float, heights: Array) -> Array:
-    """Place the plants of an ankle and a ball (2, F, 3) on the ground, then lift them to two heights."""
-    ankle, ball = heights
-    flat_tracks = tracks * [1, 0, 1]
-    flat_length = np.sqrt(length**2 - (ankle - ball) ** 2)
-    places = place_plants((flat_tracks[0], flat_tracks[1]), (marks[0], marks[1]), flat_length)
-    places[..., 1] = heights[:, None]
-    return places
 
 
 def limit_turns(motion: MotionOrPoses, joints: Sequence[str], *, margin: float = 10.0) -> Pins:

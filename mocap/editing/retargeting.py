@@ -12,6 +12,7 @@ import numpy as np
 from mocap._shared.arguments import checked_by
 from mocap._shared.arrays import Array
 from mocap._shared.quantities import described
+from mocap.body.foot_joints import feet_of
 from mocap.body.limbs import FEET, SIDES
 from mocap.body.motion import Motion, require_motion
 from mocap.body.skeleton import Skeleton
@@ -24,7 +25,6 @@ from mocap.editing.poses import MotionOrPoses, Poses, poses_of
 from mocap.editing.stages import Stage, closing_stages
 from mocap.editing.stances import Stance, stance_of, stance_of_zero
 from mocap.editing.standing import mark_met
-from mocap.editing.toes import feet_of
 from mocap.editing.tuned import TUNED
 from mocap.errors import MocapError, shortened, warn
 from mocap.feet.footskate import clean_up
@@ -94,7 +94,7 @@ def retarget(motion: Motion, body: Stance, source: Stance, *, scale: float | Non
     plants = floor_pins(base, body)
     pins = join_pins(floor_under(positions, source, body), plants)
     allowed = lowest_worn(positions, body.leg / source.leg, len(body.skeleton))
-    worn = meet_above_floor(base, pins, _solving(base, body), Heights(feet_of(base), allowed, allowed))
+    worn = meet_above_floor(base, pins, _solving(base, body), Heights(feet_of(base.motion), allowed, allowed))
     moved = np.abs(worn.motion.root_positions - base.motion.root_positions).max()
     if moved > TUNED.worn_hips * body.leg:
         hips = f"the hips move by {100 * moved:.0f} cm to take these steps"

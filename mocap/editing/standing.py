@@ -5,17 +5,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Mask, runs
+from mocap._shared.arrays import Array, runs
 from mocap._shared.records import NamedTuple
+from mocap.body.foot_joints import Feet, feet_of
+from mocap.body.kinematics import positions_of
 from mocap.body.legs import Leg
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.editing.constraint_checks import warn_of_errors
 from mocap.editing.constraints import Pins
 from mocap.editing.pins import pins_of_plants
-from mocap.editing.poses import MotionOrPoses, Poses, motion_of, poses_of
-from mocap.editing.toes import SLACK, Feet, feet_of, lowest_allowed, lowest_of_feet
-from mocap.feet.footskate import marks_by_joint, settled_marks
+from mocap.editing.poses import MotionOrPoses, Poses, motion_of
+from mocap.editing.toes import SLACK, lowest_allowed
 
 CLOSED = 1e-4  # metres: constraints with a larger error cause a warning, and plants among them are released
 
@@ -34,6 +35,7 @@ def plants_within(plants: Pins, poses: Poses, frames: slice, legs: Sequence[Leg]
     --------
     >>> from mocap.datasets import sample
     >>> from mocap.editing.pins import plant_pins
+    >>> from mocap.editing.poses import poses_of
     >>> walk = sample("walk_straight")[:240]
     >>> plants = plant_pins(walk)
     >>> legs = find_legs(walk.skeleton)
@@ -60,86 +62,45 @@ def plants_within(plants: Pins, poses: Poses, frames: slice, legs: Sequence[Leg]
 
 
 class Source(NamedTuple):
-    """A motion that is edited, as far as the edit must know all of it.
+    """A motion that an edit starts from, as far as the edit must know all of it.
 
     Parameters
     ----------
     clip : F frames of J joints.
     feet : those of its skeleton.
     lowest : shape (J,), metres: the lowest height of each joint of the feet, -∞ for other joints.
+    plants : of F frames, of both legs, where they stand in the clip.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> source = source_of(sample("walk_straight"))
+    >>> [round(float(source.lowest[joint]), 3) for joint in (6, 0)]  # a tip of toes, and the root
+    [0.017, -inf]
     """
 
     clip: MotionOrPoses
     feet: Feet
     lowest: Array
-
-    @property
-    def legs(self) -> tuple[Leg, ...]:
-        """Both legs.
-
-        Raises
-        ------
-        MocapError : for a skeleton in which no legs are found.
-        """
-        return self.feet.legs or find_legs(motion_of(self.clip).skeleton)
+    plants: Pins
 
 
 def source_of(clip: MotionOrPoses) -> Source:
-    """Find the feet of a motion, and how low they are."""
-    feet = feet_of(clip)
-    return Source(clip, feet, lowest_of_feet(clip, feet))
+    """Find the feet of a motion, where they stand, and how low they are.
 
-
-class Region(NamedTuple):
-    """Frames of a motion, with all frames of the plants that reach into them.
-
-    Parameters
-    ----------
-    frames : of the motion, a range.
-    poses : of these frames, with settled contacts.
-    plants : of these frames, of both legs.
+    Raises
+    ------
+    MocapError : for legs that cannot be found, and marks that are missing.
     """
-
-    frames: slice
-    poses: Poses
-    plants: Pins
-
-    @property
-    def start(self) -> int:
-        """The first of the frames."""
-        return int(self.frames.start)
-
-
-def region_around(source: Source, frames: slice) -> Region:
-    """Select frames of a motion, with all frames of the plants that reach into them.
-
-    Examples
-    --------
-    >>> from mocap.datasets import sample
-    >>> region_around(source_of(sample("walk_straight")), slice(420, 440)).frames
-    slice(405, 459, None)
-    """
-    legs = source.legs
-    clip = motion_of(source.clip)
-    marks = settled_marks(clip, legs)
-    wider = _with_whole_plants(np.asarray(marks.any(axis=1)), frames)
-    poses = poses_of(source.clip[wider])
-    contacts = {**poses.motion.contacts, **marks_by_joint(clip, legs, marks[..., wider])}
-    settled = Poses(replace(poses.motion, contacts=contacts), poses.positions, poses.matrices)
-    return Region(wider, settled, pins_of_plants(settled, legs, marks[..., wider]))
-
-
-def _with_whole_plants(planted: Mask, frames: slice) -> slice:
-    """Extend a range of frames by the plants of L feet (L, F) that reach beyond its ends."""
-    start = frames.start
-    stop = frames.stop
-    for foot in planted:
-        lifted = np.flatnonzero(~foot)
-        if foot[frames.start]:
-            start = min(start, int(lifted[lifted < frames.start].max(initial=-1)) + 1)
-        if foot[frames.stop - 1]:
-            stop = max(stop, int(lifted[lifted >= frames.stop].min(initial=len(foot))))
-    return slice(start, stop)
+    motion = motion_of(clip)
+    feet = feet_of(motion)
+    legs = feet.legs or find_legs(motion.skeleton)
+    stand = [joint for leg in legs for joint in (leg.ankle, leg.ball)]
+    joints = [*stand, *feet.joints]
+    positions = clip.positions[:, joints] if isinstance(clip, Poses) else positions_of(motion, joints)
+    lowest = np.full(len(motion.skeleton), -np.inf)
+    lowest[joints] = positions[..., 1].min(axis=0)
+    return Source(clip, feet, lowest, pins_of_plants(motion, legs, positions[:, : len(stand)]))
 
 
 def allowed_by(pins: Pins, poses: Poses, source: Source) -> Array:
@@ -152,7 +113,7 @@ def allowed_by(pins: Pins, poses: Poses, source: Source) -> Array:
     pins, poses : F frames.
     source : the whole motion.
     """
-    allowed = lowest_allowed(poses, source.lowest, source.feet)
+    allowed = lowest_allowed(poses, source.feet, source.lowest)
     skeleton = poses.motion.skeleton
     for column, joint in enumerate(pins.joints):
         if (pins.high[:, column, 1] < allowed[:, joint] - SLACK).any():
@@ -176,6 +137,7 @@ def mark_met(poses: Poses, pins: Pins, plants: Pins, first_frame: int = 0) -> Mo
     >>> import warnings
     >>> from mocap.datasets import sample
     >>> from mocap.editing.pins import plant_pins
+    >>> from mocap.editing.poses import poses_of
     >>> walk = sample("walk_straight")[:240]
     >>> plants = plant_pins(walk)
     >>> with warnings.catch_warnings(action="ignore"):

@@ -12,69 +12,16 @@ import numpy as np
 from scipy.ndimage import convolve1d, maximum_filter1d
 
 from mocap._shared.arrays import Array
-from mocap._shared.records import NamedTuple
 from mocap.body import rotations
-from mocap.body.kinematics import hinge_of, joint_positions, positions_of
+from mocap.body.foot_joints import Feet
+from mocap.body.kinematics import hinge_of, joint_positions
 from mocap.body.legs import Leg
-from mocap.body.limbs import find_legs, with_roles
 from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
-from mocap.editing.poses import MotionOrPoses, Poses, motion_of, poses_of
+from mocap.editing.poses import MotionOrPoses, Poses, poses_of
 from mocap.editing.tuned import TUNED
-from mocap.errors import MocapError
 
 SLACK = 0.001  # metres: a tip that is lower by less is left alone
 SHORT = 1e-9  # metres: toes that point straight down in every frame have no lateral axis, and stay
-
-
-class Feet(NamedTuple):
-    """The feet of a skeleton.
-
-    Parameters
-    ----------
-    legs : both legs; none for a body without legs.
-    tips : of each leg, the joints that end its toes.
-    joints : the ankles and all joints below them.
-    """
-
-    legs: tuple[Leg, ...]
-    tips: tuple[list[int], ...]
-    joints: list[int]
-
-
-def feet_of(motion: MotionOrPoses) -> Feet:
-    """Find the feet of a motion's skeleton; none for a body without legs.
-
-    Examples
-    --------
-    >>> from mocap.datasets import sample
-    >>> walk = sample("walk_straight")
-    >>> [walk.skeleton.names[joint] for joint in feet_of(walk).joints]
-    ['lfoot', 'ltoes', 'ltoes_end', 'rfoot', 'rtoes', 'rtoes_end']
-    """
-    try:
-        skeleton = with_roles(motion_of(motion)).skeleton
-        legs = find_legs(skeleton)
-    except MocapError:
-        return Feet((), (), [])
-    ankles = {leg.ankle for leg in legs}
-    joints = [joint for joint in range(len(skeleton)) if ankles & {*skeleton.path_to_root(joint)}]
-    return Feet(legs, tuple(toe_tips(skeleton, leg) for leg in legs), joints)
-
-
-def toe_tips(skeleton: Skeleton, leg: Leg) -> list[int]:
-    """List the joints that end the toes of a leg: those below its ball that have no joint below them.
-
-    Examples
-    --------
-    >>> from mocap.datasets.samples import SKELETON
-    >>> [SKELETON.names[tip] for leg in find_legs(SKELETON) for tip in toe_tips(SKELETON, leg)]
-    ['ltoes_end', 'rtoes_end']
-    """
-    if not leg.has_ball:
-        return []
-    below = [joint for joint in range(len(skeleton)) if leg.ball in skeleton.path_to_root(joint)[1:]]
-    return [joint for joint in below if not skeleton.children(joint)]
 
 
 def lowest_heights(clips: Sequence[Motion]) -> Array:
@@ -82,24 +29,7 @@ def lowest_heights(clips: Sequence[Motion]) -> Array:
     return np.asarray(np.min([joint_positions(clip)[..., 1].min(axis=0) for clip in clips], axis=0))
 
 
-def lowest_of_feet(motion: MotionOrPoses, feet: Feet) -> Array:
-    """Compute the lowest height of each joint of the feet in a motion, (J,), metres; -∞ for other joints.
-
-    Examples
-    --------
-    >>> from mocap.datasets import sample
-    >>> walk = sample("walk_straight")
-    >>> [float(lowest_of_feet(walk, feet_of(walk))[joint].round(3)) for joint in (12, 30)]
-    [0.017, -inf]
-    """
-    lowest = np.full(len(motion_of(motion).skeleton), -np.inf)
-    joints = feet.joints
-    positions = motion.positions[:, joints] if isinstance(motion, Poses) else positions_of(motion, joints)
-    lowest[joints] = positions[..., 1].min(axis=0)
-    return lowest
-
-
-def lowest_allowed(motion: MotionOrPoses, lowest: Array | None = None, feet: Feet | None = None) -> Array:
+def lowest_allowed(motion: MotionOrPoses, feet: Feet, lowest: Array | None = None) -> Array:
     """Compute the lowest height of each joint that is allowed after an edit, (F, J), metres.
 
     A joint may be on the floor, y = 0, or as far under it as it was in the same frame. An ankle, and what is
@@ -108,15 +38,16 @@ def lowest_allowed(motion: MotionOrPoses, lowest: Array | None = None, feet: Fee
     Parameters
     ----------
     motion : F frames, before the edit.
+    feet : from `feet_of`.
     lowest : the lowest height of each joint in the clips that the motion is made of, (J,), metres; by default
         in the motion itself.
-    feet : by default those of `feet_of`.
 
     Examples
     --------
+    >>> from mocap.body.foot_joints import feet_of
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")
-    >>> allowed = lowest_allowed(walk)[:, walk.skeleton.index("ltoes_end")]
+    >>> allowed = lowest_allowed(walk, feet_of(walk))[:, walk.skeleton.index("ltoes_end")]
     >>> bool(np.ptp(allowed) == 0), round(float(allowed[0]), 3)  # this tip is never under the floor
     (True, 0.017)
     """
@@ -124,12 +55,12 @@ def lowest_allowed(motion: MotionOrPoses, lowest: Array | None = None, feet: Fee
     heights = poses.positions[..., 1]
     lowest = heights.min(axis=0) if lowest is None else lowest
     allowed = np.minimum(heights, 0.0)
-    joints = (feet or feet_of(poses)).joints
+    joints = feet.joints
     allowed[:, joints] = np.maximum(lowest[joints], allowed[:, joints])
     return allowed
 
 
-def bend_toes(motion: MotionOrPoses, allowed: Array, feet: Feet | None = None) -> Motion:
+def bend_toes(motion: MotionOrPoses, allowed: Array, feet: Feet) -> Motion:
     """Bend toes so that their tips are no lower than allowed.
 
     Only the rotations of the balls change. A bend begins and ends smoothly within 0.05 s.
@@ -139,7 +70,7 @@ def bend_toes(motion: MotionOrPoses, allowed: Array, feet: Feet | None = None) -
     motion : F frames of J joints.
     allowed : the lowest height of each joint, (F, J), metres, as `lowest_allowed` computes it; only those of
         toe tips matter.
-    feet : by default those of `feet_of`.
+    feet : from `feet_of`.
 
     Returns
     -------
@@ -147,9 +78,11 @@ def bend_toes(motion: MotionOrPoses, allowed: Array, feet: Feet | None = None) -
 
     Examples
     --------
+    >>> from mocap.body.foot_joints import feet_of
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")[:120]
-    >>> raised = bend_toes(walk, lowest_allowed(walk) + 0.02)  # tips 2 cm higher than they ever were
+    >>> feet = feet_of(walk)
+    >>> raised = bend_toes(walk, lowest_allowed(walk, feet) + 0.02, feet)  # 2 cm higher than they ever were
     >>> tip = walk.skeleton.index("ltoes_end")
     >>> [round(float(joint_positions(clip)[:, tip, 1].min()), 3) for clip in (walk, raised)]
     [0.017, 0.036]
@@ -157,7 +90,6 @@ def bend_toes(motion: MotionOrPoses, allowed: Array, feet: Feet | None = None) -
     poses = poses_of(motion)
     source = poses.motion
     local = source.rotations.copy()
-    feet = feet or feet_of(source)
     for leg, tips in zip(feet.legs, feet.tips, strict=True):
         if not tips or (poses.positions[:, tips, 1] >= allowed[:, tips] - SLACK).all():
             continue

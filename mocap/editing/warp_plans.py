@@ -18,7 +18,7 @@ from mocap.editing.displacements import displaced
 from mocap.editing.edits import brought
 from mocap.editing.foot_cleaning import clean_feet
 from mocap.editing.keys import Key, keys_around, offsets
-from mocap.editing.pins import join_pins, pin, plant_pins
+from mocap.editing.pins import join_pins, pin
 from mocap.editing.poses import poses_of, with_frames_of
 from mocap.editing.posing import posed_with
 from mocap.editing.retiming import retime
@@ -205,8 +205,8 @@ def _warp_poses(motion: Motion, plan: WarpPlan, window: float, feet: bool) -> Mo
     frames = _frames_between_keys(motion, plan, window)
     no_pins = Pins((), *np.zeros((2, len(motion), 0, 3)))
     poses = poses_of(motion)
-    source = source_of(poses)
-    plants = plants_within(plant_pins(poses), poses, frames, source.legs) if feet else no_pins
+    source = source_of(poses) if feet else None
+    plants = plants_within(source.plants, poses, frames, source.feet.legs) if source else no_pins
     keys: list[Key] = []
     pins: list[Pins] = []
     for frame, targets in sorted(plan.targets.items()):
@@ -220,7 +220,7 @@ def _warp_poses(motion: Motion, plan: WarpPlan, window: float, feet: bool) -> Mo
     if not pins:
         return motion
     warped = displaced(motion, offsets(motion, keys_around(motion, keys, window)))
-    if feet:
+    if source:
         return brought(warped, source, join_pins(*pins), frames=frames)
     is_outside = np.ones(len(motion), bool)
     is_outside[frames] = False

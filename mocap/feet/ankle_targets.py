@@ -204,6 +204,35 @@ def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: 
     return places
 
 
+def places_at_heights(
+    joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: float, heights: Array
+) -> Array:
+    """Compute positions of footplants as `place_plants` does, at given heights of ankle and ball.
+
+    An ankle and a ball that stand together are as far apart as the flat foot is long.
+
+    Parameters
+    ----------
+    joints, marks, length : as for `place_plants`.
+    heights : of ankle and ball while they stand, (2,), metres.
+
+    Examples
+    --------
+    >>> ankle = np.array([[0.0, 0.3, 0.0], [0.0, 0.3, 0.0]])
+    >>> ball = ankle + [0.0, -0.1, 0.1]
+    >>> stands = np.array([True, True])
+    >>> places_at_heights((ankle, ball), (stands, stands), 0.1, np.array([0.06, 0.0])).round(3)[:, 0]
+    array([[0.  , 0.06, 0.  ],
+           [0.  , 0.  , 0.08]])
+    """
+    ankle, ball = heights
+    on_ground = (joints[0] * [1, 0, 1], joints[1] * [1, 0, 1])
+    flat_length = np.sqrt(length**2 - (ankle - ball) ** 2)
+    places = place_plants(on_ground, marks, flat_length)
+    places[..., 1] = heights[:, None]
+    return places
+
+
 def _pull_in(places: Array, marks: Mask, track: LegTrack) -> Array:
     """Pull footplants towards the hip until the leg, or leg and foot, reach them in each frame.
 

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from mocap import load
 from mocap.body import Motion, PlanarTransform, Skeleton, joint_positions, resample, rotations
+from mocap.body.foot_joints import feet_of
 from mocap.body.limbs import FEET, ROLES, roles
 from mocap.body.motion import rotating_joints
 from mocap.datasets.samples import SKELETON, sample
@@ -316,7 +317,7 @@ def test_longer_toes_of_one_side_do_not_sink_in_the_mirror():
     offsets = WALK.skeleton.offsets.copy()
     offsets[WALK.skeleton.index("ltoes_end")] *= 2
     lopsided = replace(WALK, skeleton=replace(WALK.skeleton, offsets=offsets))
-    lopsided = bend_toes(lopsided, lowest_allowed(WALK))
+    lopsided = bend_toes(lopsided, lowest_allowed(WALK, feet_of(WALK)), feet_of(WALK))
     lowest = joint_positions(lopsided)[..., 1].min()
     plain, raised = (told("bones differ by up to", call, lopsided) for call in (mirror, mirror_above_floor))
     assert joint_positions(plain)[..., 1].min() < lowest - 0.003

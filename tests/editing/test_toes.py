@@ -7,13 +7,14 @@ import pytest
 
 from mocap import load
 from mocap.body import joint_positions, resample, rotations
+from mocap.body.foot_joints import feet_of, toe_tips
 from mocap.body.limbs import find_legs
 from mocap.datasets.samples import SKELETON, sample
 from mocap.editing import bend, edit, pin, pin_errors, plant_pins, retarget, solve
 from mocap.editing.foot_cleaning import clean_feet
 from mocap.editing.stages import closing_stages
 from mocap.editing.stances import Stance
-from mocap.editing.toes import bend_toes, lowest_allowed, lowest_heights, toe_tips
+from mocap.editing.toes import bend_toes, lowest_allowed, lowest_heights
 from mocap.editing.warp_plans import load_plan, warp
 from mocap.feet.footplants import mark_plants
 from tests.editing.bodies import adult, walk, without
@@ -53,8 +54,8 @@ def jolt(motion):
 def test_tips_are_as_high_as_they_may_be_and_nothing_but_toes_moves(fps):
     sinking = with_sinking_toes(resample(walk(), fps))
     assert tip_heights(sinking).min() < -0.005
-    allowed = lowest_allowed(resample(walk(), fps))
-    raised = bend_toes(sinking, allowed)
+    allowed = lowest_allowed(resample(walk(), fps), feet_of(walk()))
+    raised = bend_toes(sinking, allowed, feet_of(sinking))
     assert (tip_heights(raised) > allowed[:, TIPS] - 0.0011).all()
     others = [joint for joint in range(len(SKELETON)) if joint not in TIPS]
     assert np.array_equal(joint_positions(raised)[:, others], joint_positions(sinking)[:, others])
@@ -63,7 +64,7 @@ def test_tips_are_as_high_as_they_may_be_and_nothing_but_toes_moves(fps):
 
 def test_toes_bend_no_more_than_they_must():
     sinking = with_sinking_toes()
-    raised = bend_toes(sinking, lowest_allowed(walk()))
+    raised = bend_toes(sinking, lowest_allowed(walk(), feet_of(walk())), feet_of(walk()))
     high = tip_heights(sinking).min(axis=1) > 0.1
     angles = rotations.angle_between(raised.rotations[:, 5], sinking.rotations[:, 5])
     assert angles[high].max(initial=0.0) == 0
@@ -71,22 +72,22 @@ def test_toes_bend_no_more_than_they_must():
 
 
 def test_without_tips_below_the_floor_a_motion_is_itself():
-    assert bend_toes(walk(), lowest_allowed(walk())) is walk()
+    assert bend_toes(walk(), lowest_allowed(walk(), feet_of(walk())), feet_of(walk())) is walk()
     bare = without(walk(), "ltoes_end", "rtoes_end")
-    assert bend_toes(bare, lowest_allowed(bare) + 1.0) is bare
+    assert bend_toes(bare, lowest_allowed(bare, feet_of(bare)) + 1.0, feet_of(bare)) is bare
     assert toe_tips(bare.skeleton, find_legs(bare.skeleton)[0]) == []
 
 
 def test_joints_may_be_on_the_floor_or_where_they_were():
     lying = replace(walk(), root_positions=walk().root_positions - [0, 0.05, 0])
-    allowed = lowest_allowed(lying)
+    allowed = lowest_allowed(lying, feet_of(lying))
     heights = joint_positions(lying)[..., 1]
     assert (allowed <= np.maximum(heights, 0)).all()
     assert (allowed[:, FEET] <= heights[:, FEET]).all()
     assert np.array_equal(allowed[:, TIPS], np.minimum(heights, 0)[:, TIPS])
     hand = SKELETON.index("lwrist")
     assert not allowed[:, hand].any()
-    raised = lowest_allowed(lying, lowest_heights([walk()]))
+    raised = lowest_allowed(lying, feet_of(lying), lowest_heights([walk()]))
     assert raised[:, TIPS].min() == tip_heights(walk()).min()
 
 
