@@ -83,10 +83,10 @@ def heading_by_hips(positions: Array, legs: Sequence[Leg]) -> Array:
 
     Examples
     --------
-    >>> left, right = Leg(0, 2, 3, 4), Leg(1, 5, 6, 7)
-    >>> heading_by_hips(np.array([[[0.0, 1, 0.1], [0, 1, -0.1]]]), [left, right]).round(4)
+    >>> legs = [Leg(0, 2, 3, 4), Leg(1, 5, 6, 7)]
+    >>> heading_by_hips(np.array([[[0.0, 1, 0.1], [0, 1, -0.1]]]), legs).round(4)
     array([-1.5708])
     """
-    left, right = (positions[:, leg.hip] for leg in legs)
-    across = left - right
+    left_hips, right_hips = (positions[:, leg.hip] for leg in legs)
+    across = left_hips - right_hips
     return np.asarray(np.arctan2(-across[:, 2], across[:, 0]))

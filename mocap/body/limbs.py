@@ -27,20 +27,32 @@ from mocap.errors import MocapError, Remedy, shortened, warn
 ROLES_BY_HAND = Remedy("name them by {} when the clip is read", "roles")
 
 
-# Names of hip, knee, ankle and of shoulder, elbow, wrist on the left side, by source. Legs and arms are
-# looked up separately. A prefix up to a colon is ignored.
-LIMBS = (
-    ("lfemur ltibia lfoot", "lhumerus lradius lwrist"),  # Acclaim, CMU
-    ("lfemur ltibia lfoot", "lhumerus lradius lhand"),
-    ("LeftUpLeg LeftLeg LeftFoot", "LeftArm LeftForeArm LeftHand"),
-    ("LeftHip LeftKnee LeftAnkle", "LeftShoulder LeftElbow LeftWrist"),
-    ("LeftThigh LeftShin LeftFoot", "LeftShoulder LeftElbow LeftWrist"),
-    ("UpperLeg_L LowerLeg_L Foot_L", "UpperArm_L LowerArm_L Hand_L"),
-    ("left_hip left_knee left_ankle", "left_shoulder left_elbow left_wrist"),
-    ("LeftUpLeg LeftLowLeg LeftFoot", "LeftUpArm LeftLowArm LeftHand"),
-    ("LeftUpperLeg LeftLowerLeg LeftFoot", "LeftUpperArm LeftLowerArm LeftHand"),
-    ("lThigh lShin lFoot", "lShldr lForeArm lHand"),  # Poser, Daz
-    ("L_Hip L_Knee L_Ankle", "L_Shoulder L_Elbow L_Wrist"),  # SMPL
+# Names of hip, knee and ankle on the left side. A prefix up to a colon is ignored.
+LEGS_BY_NAME = (
+    "lfemur ltibia lfoot",  # Acclaim, CMU
+    "LeftUpLeg LeftLeg LeftFoot",
+    "LeftHip LeftKnee LeftAnkle",
+    "LeftThigh LeftShin LeftFoot",
+    "UpperLeg_L LowerLeg_L Foot_L",
+    "left_hip left_knee left_ankle",
+    "LeftUpLeg LeftLowLeg LeftFoot",
+    "LeftUpperLeg LeftLowerLeg LeftFoot",
+    "lThigh lShin lFoot",  # Poser, Daz
+    "L_Hip L_Knee L_Ankle",  # SMPL
+)
+
+# Names of shoulder, elbow and wrist on the left side.
+ARMS_BY_NAME = (
+    "lhumerus lradius lwrist",  # Acclaim, CMU
+    "lhumerus lradius lhand",
+    "LeftArm LeftForeArm LeftHand",
+    "LeftShoulder LeftElbow LeftWrist",
+    "UpperArm_L LowerArm_L Hand_L",
+    "left_shoulder left_elbow left_wrist",
+    "LeftUpArm LeftLowArm LeftHand",
+    "LeftUpperArm LeftLowerArm LeftHand",
+    "lShldr lForeArm lHand",  # Poser, Daz
+    "L_Shoulder L_Elbow L_Wrist",  # SMPL
 )
 
 TRUNK = ("pelvis", "waist", "chest", "neck", "head")
@@ -263,12 +275,11 @@ def find_pair(skeleton: Skeleton, limbs: Literal["legs", "arms"]) -> list[list[i
     [['lhumerus', 'lradius', 'lwrist'], ['rhumerus', 'rradius', 'rwrist']]
     """
     names = _without_prefixes(skeleton)
-    for legs, arms in LIMBS:
-        limb = (legs if limbs == "legs" else arms).split()
-        left = [names.index(name) for name in limb if name in names]
-        right = [skeleton.partner(joint) for joint in left]
-        if len(left) == len(limb) and not set(left) & set(right):
-            return [left, right]
+    for limb in LEGS_BY_NAME if limbs == "legs" else ARMS_BY_NAME:
+        joints = [names.index(name) for name in limb.split() if name in names]
+        partners = [skeleton.partner(joint) for joint in joints]
+        if len(joints) == len(limb.split()) and not set(joints) & set(partners):
+            return [joints, partners]
     return []
 
 
@@ -328,9 +339,9 @@ def _trunk(skeleton: Skeleton, limbs: Mapping[str, int]) -> dict[str, int]:
 
 def _last_common(ancestors: Mapping[str, list[int]], part: str) -> int:
     """Return the last common ancestor of the left and the right `part`, the root if there is none."""
-    left = set(ancestors.get(f"left {part}", ()))
-    right = set(ancestors.get(f"right {part}", ()))
-    return max(left & right, default=0)
+    above_left = set(ancestors.get(f"left {part}", ()))
+    above_right = set(ancestors.get(f"right {part}", ()))
+    return max(above_left & above_right, default=0)
 
 
 def _child_towards(joint: int, path: list[int]) -> int:

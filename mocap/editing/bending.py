@@ -166,7 +166,7 @@ def bend(
     source = moving_frames(ride.path, slowed.source_along)
     upright = (target @ source.inverse()).apply_motion(slowed.motion)
     laid, held = lean(upright, np.asarray(target.angle), slowed.lean)
-    cleaned = clean_feet(laid, before=slowed.motion, held=held)
+    cleaned = clean_feet(laid, original=slowed.motion, held=held)
     bent = Bent(cleaned, laid, path, line, replace(ride, along=slowed.source_along), slowed.along)
     fastest = np.abs(bent.turned).max(initial=0.0)
     if fastest > max(WARNED, 2 * limit):

@@ -133,14 +133,14 @@ def _changed(motion: Motion, source: Source, pins: Pins, body: Body | None, fram
     """Return the frames that `brought` changes."""
     section = section_of(frames, len(motion), motion.fps)
     inner = section.inner_of_outer
-    known = poses_of(source.clip[section.outer])
-    base = known if source.clip is motion else poses_of(motion[section.outer])
+    source_poses = poses_of(source.clip[section.outer])
+    base = source_poses if source.clip is motion else poses_of(motion[section.outer])
     stays = np.ones(len(base), bool)
     stays[inner] = False
     plants = source.plants[section.outer]
-    steady = plants_within(plants, known.with_frames_of(base, stays), inner, source.feet.legs)
+    steady = plants_within(plants, source_poses.with_frames_of(base, stays), inner, source.feet.legs)
     wanted = join_pins(steady, pins[section.outer])
-    allowed = allowed_by(pins[section.outer], known, source)
+    allowed = allowed_by(pins[section.outer], source_poses, source)
     heights = Heights(source.feet, allowed, allowed, plants.joints)
     solving = edit_solving(motion, body)._replace(frames=inner, first_frame=section.outer.start)
     changed = meet_above_floor(base, wanted, solving, heights)

@@ -23,7 +23,7 @@ def clean_feet(
     motion: Motion,
     lowest: Array | None = None,
     *,
-    before: Motion | None = None,
+    original: Motion | None = None,
     held: Mapping[int, Array] | None = None,
 ) -> Motion:
     """Remove foot sliding by `feet.clean_up`, and keep all joints above the floor.
@@ -32,7 +32,7 @@ def clean_feet(
     ----------
     motion : F frames of J joints; its `contacts` say when feet stand.
     lowest : as for `lowest_allowed`.
-    before : the motion of which it was made, with heights that are allowed; by default the motion itself.
+    original : the motion of which it was made, with heights that are allowed; by default the motion itself.
     held : as for `feet.clean_up`.
 
     Raises
@@ -53,7 +53,7 @@ def clean_feet(
     True
     """
     poses = poses_of(motion)
-    source = poses if before is None else poses_of(before)
+    source = poses if original is None else poses_of(original)
     cleaned = clean_up(motion, held=held, poses=poses.world)
     feet = feet_of(cleaned)
     return raised(cleaned, lowest_allowed(source, feet, lowest), feet)

@@ -265,7 +265,9 @@ def stance_of_zero(skeleton: Skeleton, heights: Mapping[str, float] | float) -> 
 
 def _flat_bone(bone: Array, drop: float) -> Array:
     """Rotate the bone from an ankle to a ball (3,) until the ball is `drop` metres lower than the ankle."""
-    ahead = bone[[0, 2]] if np.hypot(bone[0], bone[2]) > abs(bone[1]) else np.array([0.0, 1.0])
+    level = bone[[0, 2]]
+    is_upright = np.hypot(*level) <= abs(bone[1])
+    ahead = np.array([0.0, 1.0]) if is_upright else level
     ahead = ahead / np.hypot(*ahead) * np.sqrt(bone @ bone - drop**2)
     return np.array([ahead[0], -drop, ahead[1]])
 

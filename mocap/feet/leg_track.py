@@ -115,7 +115,8 @@ class LegTrack(NamedTuple):
         direction = wanted / np.sqrt(dot(wanted, wanted))[..., None]
         bisector = leg + direction
         weight = dot(bisector, thigh) / np.maximum(1 + dot(leg, direction), ROUNDING)
-        return np.asarray(thigh + 2 * dot(leg, thigh)[..., None] * direction - weight[..., None] * bisector)
+        along = 2 * dot(leg, thigh)[..., None] * direction
+        return np.asarray(thigh + along - weight[..., None] * bisector)
 
 
 def track_leg(motion: Motion, leg: Leg, poses: GlobalPoses) -> LegTrack:

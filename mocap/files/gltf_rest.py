@@ -174,10 +174,10 @@ def _symmetric(skeleton: Skeleton, world: Array) -> Array:
 def _images(skeleton: Skeleton) -> dict[int, int]:
     """Return the mirror image of each joint of the limbs, and of the trunk, whose joints are their own."""
     pairs = limb_partners(skeleton)
-    images = pairs | {right: left for left, right in pairs.items()}
-    for left, right in pairs.items():
-        trunk = set(skeleton.path_to_root(left)) & set(skeleton.path_to_root(right))
-        images |= {joint: joint for joint in trunk}
+    images = pairs | {partner: joint for joint, partner in pairs.items()}
+    for joint, partner in pairs.items():
+        trunk = set(skeleton.path_to_root(joint)) & set(skeleton.path_to_root(partner))
+        images |= {above: above for above in trunk}
     head = roles(skeleton).get("head", 0)
     return images | {joint: joint for joint in skeleton.path_to_root(head)}
 

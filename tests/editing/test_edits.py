@@ -17,6 +17,7 @@ from mocap.editing.levels import hierarchy, scattered_fit
 from mocap.editing.path_editing import plants_kept
 from mocap.editing.pins import join_pins, pin, plant_pins
 from mocap.editing.posing import posed
+from mocap.errors import MocapError
 from mocap.feet.footskate import clean_up
 from tests.editing import wishes
 from tests.editing.test_path_editing import slide
@@ -131,6 +132,16 @@ def test_what_cannot_be_is_said():
     both = told(r"frame 240: 'r\w+' is \d+\S* mm off its pin", edit, clip, join_pins(*apart))
     errors = [pin_errors(both, one)[240, 0] for one in apart]
     assert min(errors) > 0.03 and max(errors) < 1.3 * min(errors)  # each gives way by as much
+
+
+def test_errors_and_warnings_count_frames_from_the_first_of_the_clip():
+    clip = sample("walk_straight")
+    at = joint_positions(clip[800:801])[0]
+    elbow, wrist = (clip.skeleton.index(name) for name in ("rradius", "rwrist"))
+    raised = pin(clip, wrist, [800], at[wrist] + [0, 0.1, 0])
+    told("frame 800: ", edit, clip, join_pins(raised, pin(clip, elbow, [800], at[elbow] - [0, 0.1, 0])))
+    with pytest.raises(MocapError, match=r"^Frame 800: 'rwrist' would be"):
+        edit(clip, pin(clip, wrist, [800], at[wrist] + [0, 9, 0]))
 
 
 def test_the_fit_of_one_datum_and_of_two_has_the_papers_values():
