@@ -12,6 +12,9 @@ duration of a walk.
   from the end of the line. `idle_price`: two clips of which one stands for long. `slowest`, `grace` and
   `creep`: the same two, played at 0.6 to 0.2 times their pace. Refused: how many of these have no walk.
 - Control: a figure that is turned about its root by commands, for half a minute; see `judge_control`.
+- Held feet: figures that are turned about their roots on a graph and by matching, by three sets of commands
+  for 20 s each. Slide: the largest of a stance, and the mean. Jolting: frames above 99.9 % of the clips'.
+  Jump: the 99.9 % of the changes of velocity, of the clips'. `held_feet.md` has the table of `foot_halflife`.
 - Crowds: two who cross. Nearest: the least distance between them, which should be 80 cm; waits: the sum of
   both. `passing`: the distance of a walk from waypoints at the moments that count as passed.
 """
@@ -22,18 +25,24 @@ import numpy as np
 from _trials import CAPTURED_WALKS, RATE, STOP_AND_GO, Clips, Collection, Row, Study, Trial
 from _walks import PATHS, compiled, followed, graph_of, measures
 
+from mocap._shared.arrays import Array
 from mocap.body import SHAPES, GroundPath, circle, resample, s_curve
 from mocap.editing import LIMIT
 from mocap.errors import NoWalk
+from mocap.feet import mark_plants
 from mocap.files import DirectedPoint, Direction
-from mocap.quality import spread
+from mocap.methods.motion_matching import MotionMatcher, tabulate
+from mocap.quality import foot_sliding, jumps, spread
+from mocap.quality.seam_measures import USUAL
 from mocap.steering import (
     Controller,
     RootTurner,
     Waypoint,
+    command_headings,
     direct,
     follow_path,
     judge_control,
+    steer,
     through_waypoints,
     tuned,
     walk_crowd,
@@ -91,8 +100,8 @@ def refused(clips: Clips) -> Row:
 def bent(clips: Clips) -> Row:
     """Lay walks on two lines."""
     walks = followed(compiled(clips), bend=LIMIT)
-    ends = [np.hypot(*(walk.motion().root_positions[-1, [0, 2]] - walk.path.points[-1])) for walk in walks]
-    return {"short, cm": 100 * float(max(ends))} | measures(walks)
+    short = [walk.motion().root_positions[-1, [0, 2]] - walk.path.points[-1] for walk in walks]
+    return {"short, cm": 100 * float(np.linalg.norm(short, axis=1).max())} | measures(walks)
 
 
 def pausing(clips: Clips) -> Row:
@@ -140,6 +149,26 @@ def commanded(clips: Clips) -> Row:
         "jolting, %": 100 * report.jolting,
         "wags, degrees": report.wags,
     }
+
+
+def held(clips: Clips) -> Row:
+    """Turn characters on a graph and by matching by three sets of commands, and measure what feet do."""
+    marked = [clip if clip.contacts else mark_plants(clip) for clip in clips]
+    usual = float(np.percentile(spread(marked).within(1), USUAL))
+    halflife = tuned.TUNED.foot_halflife
+    distances: list[float] = []
+    changes: list[Array] = []
+    for seed in range(3):
+        headings = command_headings(20.0, RATE, seed)
+        for character in (Controller(compiled(clips)), MotionMatcher(tabulate(marked))):
+            motion = steer(RootTurner(character, halflife=halflife), headings, speed=1.0).motion
+            stances = [stance for stance in foot_sliding(motion) if stance.stop - stance.start > 2]
+            distances += [stance.distance for stance in stances]
+            changes.append(jumps(motion))
+    jump = np.concatenate(changes)
+    row: Row = {"worst slide, cm": max(distances), "slide, cm": float(np.mean(distances))}
+    row |= {"jolting, %": 100 * float(np.mean(jump > usual))}
+    return row | {"jump": float(np.percentile(jump, USUAL)) / usual}
 
 
 def directed(clips: Clips) -> Row:
@@ -194,6 +223,15 @@ TRIALS = {
     "rotation_price": Trial(commanded, (0.0, 0.1, 0.6)),
     "turned_seam": Trial(commanded, (1.0, 6.0)),
     "pace_price": Trial(commanded, (0.0, 3.0, 12.0)),
+    "largest_rotation": Trial(held, (100.0, 1.2, 2.0)),
+    "foot_halflife": Trial(held, (0.1, 0.12, 0.3)),
+    "heel_halflife": Trial(held, (0.05, 0.2)),
+    "hip_halflife": Trial(held, (0.05, 0.2)),
+    "lowest_hips": Trial(held, (0.0, 0.1)),
+    "soft_reach": Trial(held, (0.95, 0.99)),
+    "longest_reach": Trial(held, (0.99, 1.0)),
+    "steepest_foot": Trial(held, (0.79, 1.57)),
+    "turned_ahead": Trial(commanded, (3.0, 1.0, 2.0)),
     "standing_seconds": Trial(directed, (0.2, 0.6)),
     "starting_seconds": Trial(directed, (0.2, 1.0)),
     "standing_nodes": Trial(directed, (1, 6)),

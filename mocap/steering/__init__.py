@@ -30,14 +30,15 @@ Reading order (notebooks 08, 12, 17, 18)
 17. `leg_search`: search for one leg of a direction
 18. `directing`: walks that follow a direction: they stand, wait, turn and arrive
 19. `characters`: the protocol, the pose of a step, a walk by given commands, and the delay of its response
-20. `graph_control`: a character on a motion graph, and its look-ahead
-21. `plain_vectors`: vectors and rotations in plain numbers
-22. `leg_reach`: inverse kinematics of a leg in closed form
-23. `held_feet`: standing feet are held while a character moves on
-24. `root_turning`: the way to steer: additional rotation about the root, longer or shorter steps, held feet
-25. `foot_turning`: additional rotation about the planted foot, as a comparison
-26. `judged_control`: one evaluation protocol for all characters
-27. `tuned`: the constants that trials chose
+20. `look_ahead`: walks ahead of a character on a motion graph, and their costs
+21. `graph_control`: a character on a motion graph
+22. `plain_vectors`: vectors and rotations in plain numbers
+23. `leg_reach`: inverse kinematics of a leg in closed form
+24. `held_feet`: standing feet are held while a character moves on
+25. `root_turning`: the way to steer: additional rotation about the root, longer or shorter steps, held feet
+26. `foot_turning`: additional rotation about the planted foot, as a comparison
+27. `judged_control`: one evaluation protocol for all characters
+28. `tuned`: the constants that trials chose
 
 References
 ----------

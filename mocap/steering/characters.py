@@ -180,7 +180,7 @@ def as_motion(character: Character, poses: Sequence[Pose], name: str = "steered"
 
 
 def between(first: float, second: float) -> float:
-    """Give the angle between two headings, radians from 0 to π.
+    """Return the angle between two headings, radians from 0 to π.
 
     Examples
     --------

@@ -21,11 +21,8 @@ from mocap.errors import MocapError
 from mocap.steering.characters import Pose
 from mocap.steering.leg_reach import JointedLeg, PlacedLeg, knee_axis
 from mocap.steering.plain_vectors import Vector, subtract
+from mocap.steering.tuned import TUNED
 
-HALFLIFE = 0.2  # seconds, of the spring that fades the offset of a foot in the air. 0.1 to 0.3 are as good
-HEEL_HALFLIFE = 0.1  # seconds, of the spring that lowers a heel. A step later no heel is lifted anymore
-HIP_HALFLIFE = 0.1  # seconds, of the spring that lowers the hips. At 0.15 feet of long steps slide by 1.4 cm
-LOWEST = 0.05  # metres: the hips are lowered by no more. At 0 feet slide by up to 3 cm
 UNCHANGED = 1e-9  # metres or radians: a foot with a smaller offset is as in its clip
 
 
@@ -114,7 +111,7 @@ class HeldFoot:
     def lift_heel(self, needed: float) -> None:
         """Lift the heel as far as needed, radians, or lower it by its spring if that is slower."""
         lift = self.lift
-        faded, velocity = fade(lift, self.lift_velocity, HEEL_HALFLIFE, self.seconds)
+        faded, velocity = fade(lift, self.lift_velocity, TUNED.heel_halflife, self.seconds)
         self.lift = max(needed, faded.real)
         self.lift_velocity = velocity.real if self.lift > needed else (needed - lift) / self.seconds
 
@@ -171,7 +168,7 @@ class HeldFeet:
     [(-0.02, 'ankle'), (0.0, None)]
     """
 
-    def __init__(self, clip: Motion, *, halflife: float = HALFLIFE) -> None:
+    def __init__(self, clip: Motion, *, halflife: float = TUNED.foot_halflife) -> None:
         if not 0 < halflife < math.inf:
             raise MocapError(
                 f"The half-life of a foot's offset is a positive number of seconds, got {halflife}."
@@ -215,9 +212,9 @@ class HeldFeet:
         for jointed, foot, placed in zip(self.legs, self.feet, placed_legs, strict=True):
             offset = (foot.offset.imag, 0.0, foot.offset.real)
             needed = max(needed, jointed.shortfall(placed, offset))
-        goal = min(needed, LOWEST)
+        goal = min(needed, TUNED.lowest_hips)
         seconds = self.feet[0].seconds
-        missing, velocity = fade(self.lowered - goal, self.lowering, HIP_HALFLIFE, seconds)
+        missing, velocity = fade(self.lowered - goal, self.lowering, TUNED.hip_halflife, seconds)
         self.lowered = goal + missing.real
         self.lowering = velocity.real
 

@@ -21,7 +21,7 @@ EVERY = 2.0  # seconds
 
 
 class ControlReport(NamedTuple):
-    """What a character is worth, by one protocol; `judge_control` shows an example.
+    """The measures of a character by one protocol; `judge_control` shows an example.
 
     `delay` is as `measure_delay` gives it. `slide` is how far a planted joint strays from its mean place, cm,
     on average over plants, and `cleaned` the same after `feet.clean_up`, which kept the share `kept` of the

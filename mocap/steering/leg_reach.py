@@ -33,10 +33,8 @@ from mocap.steering.plain_vectors import (
     shortest_arc,
     subtract,
 )
+from mocap.steering.tuned import TUNED
 
-SOFT = 0.97  # of a straight leg: up to this distance of the ankle from the hip a leg reaches its target
-STRAIGHT = 0.999  # of a straight leg: no target stretches a leg further
-STEEPEST = math.radians(75)  # of a foot against the ground: its heel lifts no further
 CLIP_FRAMES = 3000  # frames of a clip that show how its knees bend
 
 
@@ -97,8 +95,8 @@ def soft_reach(target: float, unchanged: float, length: float) -> float:
     >>> [round(soft_reach(target, 0.9, 1.0), 4) for target in (0.95, 0.98, 1.0, 1.2)]
     [0.95, 0.9785, 0.9887, 0.999]
     """
-    start = max(SOFT * length, unchanged)
-    room = STRAIGHT * length - start
+    start = max(TUNED.soft_reach * length, unchanged)
+    room = TUNED.longest_reach * length - start
     if target <= start:
         return target
     return start + room * -math.expm1((start - target) / room) if room > 0 else start
@@ -196,7 +194,7 @@ class JointedLeg:
         hip, _, ankle, _ = self.leg
         start = subtract(placed.positions[ankle], placed.positions[hip])
         x, y, z = add(start, offset)
-        reach = max(SOFT * self.length, length(start))
+        reach = max(TUNED.soft_reach * self.length, length(start))
         aside = x * x + z * z
         if aside + y * y <= reach * reach:
             return 0.0
@@ -225,7 +223,7 @@ class JointedLeg:
         x, y, z = foot
         lift = hinge_angle(_lateral(foot), add(target, foot), foot, reach)
         slope = math.atan2(-y, math.hypot(x, z))
-        return max(0.0, min(lift, STEEPEST - slope))
+        return max(0.0, min(lift, TUNED.steepest_foot - slope))
 
     def trails(self, placed: PlacedLeg, offset: Vector) -> bool:
         """Return whether the target of the ankle is behind the hip, seen in the direction of the foot."""

@@ -17,7 +17,8 @@ from mocap.body.motion import Motion
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError, warn
 from mocap.steering.characters import Character, Pose
-from mocap.steering.held_feet import HALFLIFE, HeldFeet
+from mocap.steering.held_feet import HeldFeet
+from mocap.steering.tuned import TUNED
 
 RATE = math.radians(100)  # per second, as people turn while they walk
 
@@ -71,10 +72,11 @@ class RootTurner:
 
     The direction of the last third of a second is off the heading by e. Before each frame the figure is
     turned towards it by r min(1, e² / (20°)²) / fps, and in addition by as much as its clip turns away from
-    it. A clip that turns has gone on turning since the middle of that third; e counts that, at its mean rate
-    over a second. The rate r rises within 0.15 s, and a leg whose ankle stands is turned by at most 45°
-    against its clip. The steps become up to a fifth longer or shorter, towards the requested speed. The same
-    class turns characters on motion graphs and on parametric graphs, and by motion matching.
+    it, but by no more than 1.5 r / fps. A clip that turns has gone on turning since the middle of that third;
+    e counts that, at its mean rate over a second. The rate r rises within 0.15 s, and a leg whose
+    ankle stands is turned by at most 45° against its clip. The steps become up to a fifth longer or shorter,
+    towards the requested speed. The same class turns characters on motion graphs and on parametric graphs,
+    and by motion matching.
 
     Parameters
     ----------
@@ -106,7 +108,12 @@ class RootTurner:
     """
 
     def __init__(
-        self, character: Turnable, rate: float = RATE, *, stretch: float = STRETCH, halflife: float = HALFLIFE
+        self,
+        character: Turnable,
+        rate: float = RATE,
+        *,
+        stretch: float = STRETCH,
+        halflife: float = TUNED.foot_halflife,
     ) -> None:
         if not 0 <= rate < math.inf:
             raise MocapError(f"A figure turns by a finite rate from 0 on, got {rate} radians per second.")
@@ -141,7 +148,11 @@ class RootTurner:
         if not (self.track or pose.contacts):
             warn("The clips do not say when feet stand, so that feet slide in turns; mark_plants finds out.")
         root = complex(on_ground(pose.root_position))
-        self.track.append(self.track[-1] + (root - self.root) / self.rotation if self.track else 0j)
+        if self.track:
+            step = (root - self.root) / self.rotation
+            self.track.append(self.track[-1] + step)
+        else:
+            self.track.append(0j)
         self.root = root
         return self.feet.hold(pose)
 
@@ -151,7 +162,8 @@ class RootTurner:
         turn = cmath.exp(1j * self.angle)
         self.stretched = self._next_stretch(speed)
         self.rotation *= turn / abs(self.rotation)
-        place = self.root + self.stretched * self.rotation * (self.track[-1] - self.track[-2])
+        clip_step = self.track[-1] - self.track[-2]
+        place = self.root + self.stretched * self.rotation * clip_step
         self.character.transform_by(turn, place - turn * self.root)
         self.root = place
 
@@ -173,7 +185,8 @@ class RootTurner:
             error = cmath.phase(cmath.exp(1j * heading) / (self.rotation * since_middle * path))
         side = math.copysign(1.0, error)
         against = max(0.0, -side * self._clip_rate(THIRD))
-        rate = self.rate * min(1.0, (error / FULL) ** 2) + against
+        rate = self.rate * min(1.0, (error / FULL) ** 2)
+        rate = min(rate + against, TUNED.largest_rotation * self.rate)
         rise = self.rate / (RISE * self.fps**2)
         angle = max(self.angle - rise, min(self.angle + rise, side * rate / self.fps))
         twists = [0.0, *self.feet.twists()]

@@ -42,6 +42,16 @@ class Tuned:
     turned_seam: float = 3.0  # factor of the price of a seam, as no seam is needed for a turn. At 1 more jolt
     pace_price: float = 6.0  # factor of the price of a wrong pace, which is stretched. At 0 fast clips jolt
 
+    largest_rotation: float = 1.5  # times the rate, against a clip that turns. Without a limit landings jolt
+    foot_halflife: float = 0.2  # seconds, of the spring that fades the offset of a foot in the air
+    heel_halflife: float = 0.1  # seconds, of the spring that lowers a heel: a step later none is lifted
+    hip_halflife: float = 0.1  # seconds, of the spring that lowers the hips. At 0.2 feet slide further
+    lowest_hips: float = 0.05  # metres by which hips are lowered at most. At 0 feet slide by up to 3 cm
+    soft_reach: float = 0.97  # of a straight leg, up to which a leg reaches its target
+    longest_reach: float = 0.999  # of a straight leg, beyond which no target stretches a leg
+    steepest_foot: float = 1.31  # radians, 75°, of a foot against the ground: its heel lifts no further
+    turned_ahead: float = 1.5  # seconds of the look-ahead. At 3 a step takes longer, at 1 more jolt
+
     # Directions
     standing_seconds: float = 0.4  # seconds that a clip must stand to be a start or an end, half a step
     starting_seconds: float = 0.5  # seconds before the end of a standing stretch in which walks start

@@ -30,7 +30,7 @@ Waits = dict[Node, list[Edge]]
 
 
 class _Step(NamedTuple):
-    """How a node is reached after some frames: the total price, the edge, and the node and frames before."""
+    """A node reached after some frames: the total price, the last edge, and the node and frames before."""
 
     price: float
     edge: Edge | None

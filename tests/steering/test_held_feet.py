@@ -12,16 +12,15 @@ from mocap.body import Leg, Motion, forward_kinematics, joint_positions, rotatio
 from mocap.datasets import sample
 from mocap.steering import HeldFeet
 from mocap.steering.characters import Pose
-from mocap.steering.held_feet import LOWEST, HeldFoot, fade
+from mocap.steering.held_feet import HeldFoot, fade
 from mocap.steering.leg_reach import (
-    SOFT,
-    STRAIGHT,
     JointedLeg,
     hinge_angle,
     knee_axis,
     soft_reach,
 )
 from mocap.steering.plain_vectors import axis_rotation, multiply, rotate, shortest_arc
+from mocap.steering.tuned import TUNED
 from tests.bundled import clips
 from tests.refusals import refusals
 
@@ -95,7 +94,9 @@ def test_an_ankle_reaches_its_target_and_all_bones_keep_their_lengths(frame, off
     np.testing.assert_allclose(*lengths, atol=1e-12)
     np.testing.assert_array_equal(before[0], after[0])  # the hip
     leg = sum(lengths[0][:2])
-    if math.dist(before[0], before[2] + offset) <= max(SOFT * leg, math.dist(before[0], before[2])):
+    if math.dist(before[0], before[2] + offset) <= max(
+        TUNED.soft_reach * leg, math.dist(before[0], before[2])
+    ):
         np.testing.assert_allclose(after[2], before[2] + offset, atol=1e-9)
     foot = before[3] - before[2]
     np.testing.assert_allclose(after[3] - after[2], rotations.rotate(rotations.about_y(yaw), foot), atol=1e-9)
@@ -112,7 +113,9 @@ def test_a_leg_is_stretched_softly_and_never_straight():
     reached = np.array([soft_reach(target, 0.9, 1.0) for target in targets])
     slopes = np.diff(reached) / np.diff(targets)
     assert (slopes >= 0).all() and np.diff(slopes).max() < 1e-9  # it only slows down
-    assert reached.max() < STRAIGHT and (reached[targets <= SOFT] == targets[targets <= SOFT]).all()
+    assert reached.max() < TUNED.longest_reach
+    unchanged = targets <= TUNED.soft_reach
+    assert (reached[unchanged] == targets[unchanged]).all()
     assert soft_reach(1.2, 1.0, 1.0) == 1.0  # a straight leg of the clip stays as it is
 
 
@@ -193,7 +196,7 @@ def test_a_heel_lifts_and_the_hips_sink_where_the_leg_is_too_short():
     ankles, balls = np.transpose([moved(pose)[2:] for pose in shown], (1, 0, 2))
     assert np.ptp(balls, axis=0).max() < 0.01
     assert ankles[-1, 1] - ankles[0, 1] > 0.03
-    assert 0.005 < UPRIGHT[0][1] - shown[-1][0][1] <= LOWEST
+    assert 0.005 < UPRIGHT[0][1] - shown[-1][0][1] <= TUNED.lowest_hips
 
 
 def test_nothing_sinks_or_lifts_within_reach():
