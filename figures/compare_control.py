@@ -1,7 +1,8 @@
-"""Compare ten ways of control by one protocol: `python figures/compare_control.py [FOLDER OF CLIPS]`.
+"""Compare ways of control by one protocol: `python figures/compare_control.py [FOLDER OF CLIPS] [NAME ...]`.
 
 Writes the table `control.md` beside this script. The folder holds `hw3`, `cmu/16`, `cmu/02` and
-`bvh/bandai_namco`; without it the bundled clips alone are compared. Times are CPU time of one run.
+`bvh/bandai_namco`; without it the bundled clips alone are compared. With names of sections, such as
+"bundled clips", the other sections stay as they are. Times are CPU time of one run.
 """
 
 import gc
@@ -29,7 +30,7 @@ from mocap.steering.characters import Character, Pose
 from mocap.steering.judged_control import ControlReport
 from mocap.steering.root_turning import Turnable
 
-FOLDER = Path(__file__).parent
+PAGE = Path(__file__).with_name("control.md")
 ABOUT_FOOT = ", turned about the foot"
 ABOUT_ROOT = ", turned about the root"
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
@@ -37,6 +38,8 @@ CMU = (*range(11, 35), 47, 58)
 BANDAI = ("1_walk_normal", "2_walk_normal", "2_walk-turn-left_normal", "2_walk-turn-right_normal")
 SHARE = {"lrl": 1.0, "lr": 0.55, "rl": 0.55}  # a step turns by half of what a stride does, or little more
 SEEDS = range(3)  # of the commands
+PAIRED = 60.0  # seconds of steps whose times are compared in pairs
+BLOCK = 30  # steps that a character takes before it is the other's turn
 SPACING = 0.02  # metres between the points of a path
 AHEAD = 2 / 3  # of the seconds until it obeys: a character is led to the point where it will be by then
 NEAREST = 0.3  # metres along a path: that point is no nearer
@@ -178,12 +181,24 @@ def matcher(future: float, table: PoseDatabase) -> motion_matching.MotionMatcher
 
 
 def main() -> None:
-    """Write the tables."""
+    """Write the tables, each as soon as it is measured."""
     warnings.simplefilter("ignore", MocapWarning)
-    lines = ["# How fast characters respond to commands, and at what cost", "", HEAD, ""]
+    sections = _sections() if len(sys.argv) > 2 else {}
     for name, (clips, speed) in clip_sets().items():
-        lines += [f"## {name}, asked for {speed} m/s", "", *_table(name, clips, speed), ""]
-    (FOLDER / "control.md").write_text("\n".join(lines), "utf-8")
+        if sys.argv[2:] and name not in sys.argv[2:]:
+            continue
+        title = f"{name}, asked for {speed} m/s"
+        sections[title] = "\n".join(["", *_table(name, clips, speed), ""])
+        page = [f"# How fast characters respond to commands, and at what cost\n\n{HEAD}\n"]
+        page += [f"## {title}\n{text}" for title, text in sections.items()]
+        PAGE.write_text("\n".join(page), "utf-8")
+
+
+def _sections() -> dict[str, str]:
+    """Read the sections of the page as it is: their texts by their titles."""
+    _, *sections = PAGE.read_text("utf-8").split("\n## ")
+    texts = dict(section.split("\n", 1) for section in sections)
+    return {title: text.rstrip("\n") + "\n" for title, text in texts.items()}
 
 
 HEAD = """`python figures/compare_control.py` writes this page. The first measurement is
@@ -198,7 +213,8 @@ the footplants of the clips, and the fraction of footplant frames that clean-up 
 - wags: the variation of the direction while a command is constant;
 - pivots: the rotation of a foot during a contact, which is the disadvantage of rotating about it;
 - step and ready: CPU times of a step, as a mean and a maximum in the fastest of three runs, and of the
-preparation.
+preparation. The machine was loaded, which lengthens them. Below each table, two characters take turns in
+blocks of 30 steps, and the ratio of their times is given.
 
 Values are means of three runs with different commands, ± their standard deviation. For the footplants kept
 it is the minimum. Strides and steps accept only a turn as command, and have the speed of their clips. The
@@ -226,8 +242,33 @@ def _table(name: str, clips: list[mocap.Motion], speed: float) -> list[str]:
         judged.append(f"| {label} | {_judged(reports)} | {seconds:.2f} |")
         response = float(np.mean([report.delay.mean for report in reports]))
         led.append(f"| {label} | {_led(make, speed, distance_ahead(speed, response))} |")
-        print(judged[-1])
-    return [*judged, *_reasons(refused), "", *led]
+        print(judged[-1], flush=True)
+    return [*judged, *_reasons(refused), "", *_compared_times(prepared, speed), "", *led]
+
+
+def _compared_times(prepared: dict[str, Ready], speed: float) -> list[str]:
+    """Write how long steps about the root take, as a multiple of those about the foot on the same graph."""
+    lines = []
+    for label, about_foot in prepared.items():
+        if label.endswith(ABOUT_FOOT):
+            method = label.removesuffix(ABOUT_FOOT)
+            ratio = time_ratio(prepared[method + ABOUT_ROOT].make(), about_foot.make(), speed)
+            lines.append(
+                f"{method}: a step about the root takes {ratio:.2f} times as long as one about the foot."
+            )
+    return lines
+
+
+def time_ratio(character: Character, reference: Character, speed: float) -> float:
+    """Return the CPU time of a character's steps divided by that of a reference; the two take turns."""
+    headings = steering.command_headings(PAIRED, character.fps).tolist()
+    seconds = {character: 0.0, reference: 0.0}
+    for start in range(0, len(headings), BLOCK):
+        for walker in seconds:
+            begun = time.thread_time()
+            steering.steer(walker, headings[start : start + BLOCK], speed)
+            seconds[walker] += time.thread_time() - begun
+    return seconds[character] / seconds[reference]
 
 
 def _head(columns: str) -> list[str]:
@@ -340,7 +381,7 @@ def _feet(reports: list[ControlReport]) -> list[str]:
 
 def _moving(reports: list[ControlReport]) -> list[str]:
     """Write the frames that jolt, degrees of wagging and of pivoting, and the speed, m/s."""
-    jolting = _mean([report.jolting for report in reports], ".1%")
+    jolting = _mean([report.jolting for report in reports], ".2%")
     wags = _mean([report.wags for report in reports], ".1f")
     pivots = _mean([report.pivots for report in reports], ".1f")
     pace = _mean([report.pace for report in reports], ".2f")
