@@ -259,16 +259,16 @@ def _compared_times(prepared: dict[str, Ready], speed: float) -> list[str]:
     return lines
 
 
-def time_ratio(character: Character, other: Character, speed: float) -> float:
-    """Return the CPU time of a character's steps divided by that of another's, who take turns."""
+def time_ratio(character: Character, reference: Character, speed: float) -> float:
+    """Return the CPU time of a character's steps divided by that of a reference; the two take turns."""
     headings = steering.command_headings(PAIRED, character.fps).tolist()
-    seconds = {character: 0.0, other: 0.0}
+    seconds = {character: 0.0, reference: 0.0}
     for start in range(0, len(headings), BLOCK):
         for walker in seconds:
             begun = time.thread_time()
             steering.steer(walker, headings[start : start + BLOCK], speed)
             seconds[walker] += time.thread_time() - begun
-    return seconds[character] / seconds[other]
+    return seconds[character] / seconds[reference]
 
 
 def _head(columns: str) -> list[str]:

@@ -223,7 +223,7 @@ TRIALS = {
     "rotation_price": Trial(commanded, (0.0, 0.1, 0.6)),
     "turned_seam": Trial(commanded, (1.0, 6.0)),
     "pace_price": Trial(commanded, (0.0, 3.0, 12.0)),
-    "largest_turn": Trial(held, (100.0, 1.2, 2.0)),
+    "largest_rotation": Trial(held, (100.0, 1.2, 2.0)),
     "foot_halflife": Trial(held, (0.1, 0.12, 0.3)),
     "heel_halflife": Trial(held, (0.05, 0.2)),
     "hip_halflife": Trial(held, (0.05, 0.2)),

@@ -186,7 +186,7 @@ class RootTurner:
         side = math.copysign(1.0, error)
         against = max(0.0, -side * self._clip_rate(THIRD))
         rate = self.rate * min(1.0, (error / FULL) ** 2)
-        rate = min(rate + against, TUNED.largest_turn * self.rate)
+        rate = min(rate + against, TUNED.largest_rotation * self.rate)
         rise = self.rate / (RISE * self.fps**2)
         angle = max(self.angle - rise, min(self.angle + rise, side * rate / self.fps))
         twists = [0.0, *self.feet.twists()]

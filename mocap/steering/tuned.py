@@ -42,7 +42,7 @@ class Tuned:
     turned_seam: float = 3.0  # factor of the price of a seam, as no seam is needed for a turn. At 1 more jolt
     pace_price: float = 6.0  # factor of the price of a wrong pace, which is stretched. At 0 fast clips jolt
 
-    largest_turn: float = 1.5  # times the rate, of what turns against its clip. Without a limit landings jolt
+    largest_rotation: float = 1.5  # times the rate, against a clip that turns. Without a limit landings jolt
     foot_halflife: float = 0.2  # seconds, of the spring that fades the offset of a foot in the air
     heel_halflife: float = 0.1  # seconds, of the spring that lowers a heel: a step later none is lifted
     hip_halflife: float = 0.1  # seconds, of the spring that lowers the hips. At 0.2 feet slide further
