@@ -27,13 +27,15 @@ Reading order
 18. `live_bodies`: small experiments on rotations and bodies, computed as on pages without Python
 19. `live_walks`: small experiments on graphs and walks, computed alike
 20. `live_experiments`: the table of these experiments, with their controls
-21. `site`: the course as HTML pages, beside the reference pages of the package
-22. `conf`: how Sphinx makes these pages
-23. `diagrams`: ideas drawn step by step
-24. `lab`: what students wrote is used, and what they thought is kept
-25. `marking`: marks for notebooks handed in, whose code runs sealed
-26. `exam`: an exam whose numbers a teacher's key draws, and the sheet to mark it with
-27. `teaching`: slides and films that are made from the notebooks
+21. `shared_files`: pictures and scripts of the site that its pages share
+22. `search_texts`: the sentences of its pages, from which the search shows excerpts
+23. `site`: the course as HTML pages, beside the reference pages of the package
+24. `conf`: how Sphinx makes these pages
+25. `diagrams`: ideas drawn step by step
+26. `lab`: what students wrote is used, and what they thought is kept
+27. `marking`: marks for notebooks handed in, whose code runs sealed
+28. `exam`: an exam whose numbers a teacher's key draws, and the sheet to mark it with
+29. `teaching`: slides and films that are made from the notebooks
 
 References
 ----------

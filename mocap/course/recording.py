@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
+from mocap.plotting.picture import shown_width
 from mocap.widgets.experiments import Experiment
 
-ROOM = 100_000  # bytes for the pictures of one experiment
+ROOM = 70_000  # bytes for the pictures of one experiment
 COUNTS = (15, 11, 8, 5)  # of positions; the most that fit in the room
 SIZES = (1.0, 0.8, 0.64, 0.5, 0.4, 0.3, 0.2)  # of the pictures, as shares of their width
 COLOURS = 64
@@ -31,8 +32,9 @@ def record(experiment: Experiment, *, room: int = ROOM) -> dict[str, Any] | None
 
     Returns
     -------
-    The control's `name`, the `labels` of its positions, the `pictures` as PNGs in base64, the number `at` of
-    the position at rest, and the sentence `alt`; None for an experiment without such a control.
+    The control's `name`, the `labels` of its positions, the `pictures` as WebP in base64, the number `at` of
+    the position at rest, the `width` at which they are shown, pixels, and the sentence `alt`. None for an
+    experiment without such a control.
 
     Raises
     ------
@@ -69,9 +71,11 @@ def _recorded(
         experiment.set(**{name: initial})
     pictures = [Image.open(io.BytesIO(base64.b64decode(png))).convert("RGB") for png in stills]
     kept, small = _fitting(pictures, rest, room)
-    recording = {"name": name.replace("_", " "), "labels": [positions[number][0] for number in kept]}
+    labels = [positions[number][0] for number in kept]
+    recording: dict[str, Any] = {"name": name.replace("_", " "), "labels": labels}
     encoded = [base64.b64encode(data).decode() for data in small]
-    return recording | {"pictures": encoded, "at": kept.index(rest), "alt": experiment.alt}
+    recording |= {"pictures": encoded, "at": kept.index(rest), "alt": experiment.alt}
+    return recording | {"width": shown_width(base64.b64decode(stills[rest]))}
 
 
 def _positions(control: Any) -> list[tuple[str, Any]]:  # noqa: ANN401
@@ -130,7 +134,8 @@ def _fitting(pictures: list[Image.Image], rest: int, room: int) -> tuple[list[in
     def encoded(number: int, size: float) -> bytes:
         data = io.BytesIO()
         picture = _shrunk(pictures[number], size)
-        picture.quantize(palette=palette(size), dither=Image.Dither.NONE).save(data, "png", optimize=True)
+        flat = picture.quantize(palette=palette(size), dither=Image.Dither.NONE)
+        flat.convert("RGB").save(data, "webp", lossless=True)
         return data.getvalue()
 
     tries = [(count, size) for count in COUNTS for size in SIZES[:2]]

@@ -98,6 +98,84 @@ function suggest(typed, { terms, titles, docnames }) {
   });
 }
 
+// ---- excerpts ----
+
+const EXCERPT = 180; // letters
+const BEFORE = 60; // letters before the first word that was typed
+
+/**
+ * The part of a paragraph around the first of some words, and these words.
+ * @param {string} paragraph
+ * @param {RegExp} words
+ */
+function excerptOf(paragraph, words) {
+  const first = Math.max(paragraph.search(words), 0);
+  const begin = first > BEFORE ? paragraph.indexOf(" ", first - BEFORE) + 1 : 0;
+  const end =
+    begin + EXCERPT < paragraph.length ? paragraph.lastIndexOf(" ", begin + EXCERPT) : paragraph.length;
+  const shown = Object.assign(document.createElement("p"), { className: "excerpt" });
+  const text = paragraph.slice(begin, end);
+  let last = 0;
+  for (const { index, 0: word } of text.matchAll(words)) {
+    shown.append(
+      text.slice(last, index),
+      Object.assign(document.createElement("mark"), { textContent: word }),
+    );
+    last = index + word.length;
+  }
+  shown.append(text.slice(last));
+  if (begin) shown.prepend("… ");
+  if (end < paragraph.length) shown.append(" …");
+  return shown;
+}
+
+/**
+ * Show below a result the paragraph of its page with the most of the words that were typed.
+ * @param {HTMLLIElement} item
+ * @param {Record<string, string[]>} texts
+ * @param {string[]} words
+ */
+function showExcerpt(item, texts, words) {
+  const address = item.querySelector("a")?.getAttribute("href") ?? "";
+  const paragraphs = texts[address.replace(/\.html.*$/, "").replace(/^(\.\/)+/, "")];
+  if (!paragraphs) return;
+  const [phrase, ...others] = [words.join(" "), ...words];
+  /** @param {string} paragraph */
+  const score = (paragraph) => {
+    const text = paragraph.toLowerCase();
+    const found = others.filter((word) => text.includes(word)).length;
+    return found + (text.includes(phrase) ? others.length : 0);
+  };
+  const best = paragraphs.reduce((a, b) => (score(b) > score(a) ? b : a));
+  item.append(excerptOf(best, new RegExp(`\\b(?:${words.join("|")})`, "gi")));
+}
+
+// One result for each page and each function, with an excerpt.
+function watchResults() {
+  const words = (new URLSearchParams(location.search).get("q") ?? "").toLowerCase().match(/[\p{L}\p{N}_]+/gu);
+  const results = document.getElementById("search-results");
+  if (!words || !results) return;
+  const script = Object.assign(document.createElement("script"), { src: "_static/texts.js" });
+  script.onload = () => {
+    const pages = new Set();
+    const show = () => {
+      for (const item of results.querySelectorAll("li")) {
+        if (item.dataset.seen) continue;
+        item.dataset.seen = "yes";
+        const address = item.querySelector("a")?.getAttribute("href") ?? "";
+        const page = address.startsWith("reference/") ? address : address.replace(/#.*/, "");
+        if (pages.has(page)) item.hidden = true;
+        else showExcerpt(item, TEXTS, words);
+        pages.add(page);
+      }
+    };
+    new MutationObserver(show).observe(results, { childList: true, subtree: true });
+    show();
+  };
+  document.head.append(script);
+}
+watchResults();
+
 function watchSearch() {
   const typed = new URLSearchParams(location.search).get("q")?.trim();
   const results = document.getElementById("search-results");

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import copy
-import hashlib
 import html
 import io
 import json
@@ -24,6 +23,8 @@ from mocap._shared.atomic import make_folder, write_file
 from mocap._shared.progress import Progress
 from mocap.course.live_experiments import LIVE
 from mocap.course.notebooks import execute, library, notebooks_in, read
+from mocap.course.search_texts import write_search_texts
+from mocap.course.shared_files import share_attachments, share_outputs, trim
 from mocap.errors import MocapError, missing
 from mocap.widgets.embedding import script_json
 from mocap.widgets.link_picture import link_picture
@@ -41,8 +42,6 @@ STILL_NOTES = {
 }
 SCRIPT = re.compile(r'<script type="module">.*?</script>', re.DOTALL)
 ALT = re.compile(r'\balt="([^"]*)"')
-HEAVY = re.compile(r'(?s)<script type="module">(.*?)</script>|src="data:image/png;base64,([^"]+)"')
-RECORDED = re.compile(r'"data:image/png;base64,([^"]+)"')  # a picture of a recording
 AGAIN = re.compile(r"<p><small>Run this cell[^<]*</small></p>")
 ABOVE = NOTE.format(
     "Players, sliders, quizzes, bets and the blind test answer you on these pages; code and some "
@@ -71,7 +70,6 @@ CARD = (
     '<a class="card" href="{page}.html"><img src="{picture}" alt="" loading="lazy">'
     "<b>{number}</b> <span>{title}</span></a>"
 )
-WEBP_QUALITY = 72  # of 100: shaded bodies show no blocks
 CARD_SIZE = (360, 240)  # pixels that a picture of a card fits in
 REFERENCE = "{0}\n{1}\n\n.. automodule:: {0}\n   :members:\n   :imported-members:\n"
 
@@ -121,8 +119,8 @@ def build_site(
             title, notebook = prepared(file, moving=moving, live=True)
             titles.append(f"{title} <{file.stem}>")
             cards[file.stem] = _card(title, notebook, out, file.stem)
-            _detach(notebook, Path(folder), file.stem)
-            _share(notebook, out)
+            share_attachments(notebook, out)
+            share_outputs(notebook, out)
             notebook.cells.insert(1, nbformat.v4.new_markdown_cell(ABOVE, id="note"))
             if file.stem in terms:
                 notebook.cells.insert(1, _index_cell(terms[file.stem]))
@@ -138,6 +136,8 @@ def build_site(
         write_file(Path(folder, "index.md"), first.substitute(toc))
         warned = io.StringIO()  # of papers cited twice
         Sphinx(folder, HERE, out, Path(folder, ".doctrees"), "html", status=None, warning=warned).build()
+    trim(out)
+    write_search_texts(out)
     graph = bundled_graph()
     write_file(
         out / "walk.html", walk_page(graph, picture=picture_address(address), course="00-quickstart.html")
@@ -313,62 +313,18 @@ def _moving(recorded: dict[str, Any]) -> str:
     position = recorded["at"]
     label = html.escape(labels[position])
     name = html.escape(recorded["name"])
-    pictures = [f"data:image/png;base64,{picture}" for picture in recorded["pictures"]]
+    pictures = [f"data:image/webp;base64,{picture}" for picture in recorded["pictures"]]
     data = script_json({"labels": labels, "pictures": pictures})
     slider = (
         f'<input type="range" min="0" max="{len(labels) - 1}" value="{position}" aria-valuetext="{label}">'
     )
+    alt = html.escape(recorded["alt"])
+    width = recorded["width"]
     return (
         f'<div class="moving"><label>{name} {slider}<output>{label}</output></label>'
-        f'<img alt="{html.escape(recorded["alt"])}" src="{pictures[position]}">'
+        f'<img alt="{alt}" width="{width}" src="{pictures[position]}">'
         f'<script type="application/json">{data}</script></div>'
     )
-
-
-def _detach(notebook: Any, folder: Path, stem: str) -> None:  # noqa: ANN401
-    """Write attached pictures as files, which Sphinx finds."""
-    for cell in notebook.cells:
-        for name, data in cell.pop("attachments", {}).items():
-            (folder / f"{stem}-{name}").write_bytes(base64.b64decode(data["image/png"]))
-            cell.source = cell.source.replace(f"attachment:{name}", f"{stem}-{name}")
-
-
-def _smallest(png: bytes) -> tuple[bytes, str]:
-    """Return the smallest of a picture's encodings, and its suffix: PNG, WebP without loss, or WebP."""
-    picture = Image.open(io.BytesIO(png)).convert("RGB")
-    encodings = [(png, "png")]
-    for options in ({"lossless": True}, {"quality": WEBP_QUALITY}):
-        data = io.BytesIO()
-        picture.save(data, "webp", method=4, **options)
-        encodings.append((data.getvalue(), "webp"))
-    return min(encodings, key=lambda encoding: len(encoding[0]))
-
-
-def _share(notebook: Any, out: Path) -> None:  # noqa: ANN401
-    """Move scripts and pictures of outputs to files that all pages share, each once."""
-
-    def write(content: bytes, suffix: str) -> str:
-        name = f"_shared/{hashlib.sha256(content).hexdigest()[:12]}.{suffix}"
-        (out / name).write_bytes(content)
-        return name
-
-    def picture_of(text: str) -> str:
-        return write(*_smallest(base64.b64decode(text)))
-
-    def shared(match: re.Match[str]) -> str:
-        script, picture = match.groups()
-        if not script:
-            return f'loading="lazy" src="{picture_of(picture)}"'
-        # No module: a browser does not load one where the page is a file.
-        text = f"(() => {{{script.replace('export default', 'void')}}})();"
-        return f'<script defer src="{write(text.encode(), "js")}"></script>'
-
-    for cell in notebook.cells:
-        for output in cell.get("outputs", ()):
-            data = output.get("data", {})
-            if "text/html" in data:
-                page = HEAVY.sub(shared, data["text/html"])
-                data["text/html"] = RECORDED.sub(lambda match: f'"{picture_of(match[1])}"', page)
 
 
 def _write_reference(folder: Path) -> list[str]:

@@ -21,6 +21,7 @@ DPI = 110
 COLOURS = 256  # colours of the palette. The loss is hardly visible, and the file is less than half as large
 SLIDE = (1168, 480)  # pixels, the width and the height of a picture on a slide
 LETTERS = 21  # pixels, the size of the smallest letters on a slide
+SHOWN = 14  # pixels, the largest size of the smallest letters on a page
 POINTS = 72  # points of type in an inch
 
 
@@ -62,6 +63,7 @@ class Picture:
     ----------
     picture : the PNG, as bytes.
     alt : a sentence that describes the picture.
+    fitted : show it at `shown_width`; otherwise a page shows it as wide as it is.
 
     Examples
     --------
@@ -72,15 +74,20 @@ class Picture:
 
     picture: bytes = field(repr=False)
     alt: str
+    fitted: bool = field(default=True, repr=False)
 
     def __repr__(self) -> str:
         return f"Picture({self.alt!r})"
 
     def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, str], dict[str, Any]]:
         data = base64.b64encode(self.picture).decode()
-        tag = f'<img alt="{html.escape(self.alt)}" src="data:image/png;base64,{data}">'
+        attributes: dict[str, Any] = {"alt": self.alt}
+        if self.fitted:
+            attributes["width"] = shown_width(self.picture)
+        tags = "".join(f' {name}="{html.escape(str(value))}"' for name, value in attributes.items())
+        tag = f'<img{tags} src="data:image/png;base64,{data}">'
         # JupyterLab and nbconvert drop the alt text of an image/png, and keep that of HTML.
-        return {"text/html": tag, "image/png": data, "text/plain": self.alt}, {"image/png": {"alt": self.alt}}
+        return {"text/html": tag, "image/png": data, "text/plain": self.alt}, {"image/png": attributes}
 
 
 def figure_of(drawn: Any) -> Figure:  # noqa: ANN401
@@ -121,6 +128,23 @@ def letters_of(figure: Figure) -> float:
     """Return the size of a figure's smallest visible letters, inches, or infinity without letters."""
     texts = [text for text in figure.findobj(Text) if text.get_visible() and text.get_text().strip()]
     return min((float(text.get_fontsize()) for text in texts), default=np.inf) / POINTS
+
+
+def shown_width(png: bytes) -> int:
+    """Return the width, pixels, at which a page shows a picture with letters as large as those of its text.
+
+    Letters that can be read on a slide are twice as large as the text of a page around the same picture. A
+    picture is never enlarged. One whose letters are not known keeps its width.
+
+    Parameters
+    ----------
+    png : a picture that `small_png` or `few_colours` encoded.
+    """
+    picture = Image.open(io.BytesIO(png))
+    letters = float(picture.info.get("letters", np.inf))
+    if letters == np.inf:
+        return picture.width
+    return int(picture.width * min(1.0, SHOWN / letters))
 
 
 def small_png(figure: Figure, **notes: str) -> bytes:

@@ -78,7 +78,7 @@ class Embedded(Protocol):
 
     def still(self) -> Picture:
         """Return only the picture, for captured clips, whose data must not be stored in a notebook."""
-        return Picture(self.picture, self.alt)
+        return Picture(self.picture, self.alt, fitted=False)  # as wide as the scene that replaces it
 
     def html(self) -> str:
         """Return the HTML of a part of a page, which shows the picture if no script runs."""

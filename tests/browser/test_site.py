@@ -70,6 +70,18 @@ def test_the_search_finds_a_term_where_it_is_taught(page, first, term):
     assert results.first.get_attribute("href").startswith(taught)
 
 
+def test_the_search_shows_a_page_once_and_an_excerpt_with_the_words(page, first):
+    page.goto(first.replace("00-quickstart.html", "search.html?q=foot+sliding"))
+    wait_until(lambda: "finished" in page.locator("#search-results").inner_text())
+    shown = page.locator("#search-results li:visible")
+    wait_until(lambda: shown.locator(".excerpt").count() > 5)
+    marks = shown.first.locator(".excerpt mark").all_inner_texts()
+    assert {"foot", "sliding"} <= {mark.lower() for mark in marks}
+    pages = [link.get_attribute("href").partition("#")[0] for link in shown.locator("a").all()]
+    courses = [name for name in pages if not name.startswith("reference/")]
+    assert len(courses) == len(set(courses))
+
+
 def test_the_search_knows_words_near_what_was_typed(page, first):
     page.goto(first.replace("00-quickstart.html", "search.html?q=footskete"))
     wait_until(lambda: page.locator("#search-results .note").count())
@@ -109,13 +121,14 @@ def test_a_recorded_experiment_moves(page, tmp_path):
     address = index.with_name("00-one.html").as_uri()
     page.goto(address)
     slider, picture = page.get_by_label("steps taken"), page.locator(".moving img")
-    wide = picture.bounding_box()["width"]
+    shape = "picture => picture.naturalWidth / picture.naturalHeight"  # each is shown equally wide
+    wide = picture.evaluate(shape)
     slider.press("ArrowRight")
-    wait_until(lambda: picture.bounding_box()["width"] > wide)
+    wait_until(lambda: picture.evaluate(shape) > wide)
     assert page.locator(".moving output").inner_text() == "3"
     assert slider.get_attribute("aria-valuetext") == "3"
     slider.press("Home")
-    wait_until(lambda: picture.bounding_box()["width"] < wide)
+    wait_until(lambda: picture.evaluate(shape) < wide)
     assert slider.bounding_box()["height"] >= 44
     assert page.url == f"{address}#experiment-steps=0"
     page.goto("about:blank")

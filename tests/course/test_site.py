@@ -167,6 +167,18 @@ def test_the_site_is_small(site):
     assert sum(path.stat().st_size for path in site.rglob("*") if path.is_file()) < 20_000_000
 
 
+def test_pages_hold_nothing_that_changes_nothing(site):
+    assert not list(site.rglob("*.map"))
+    text = (site / "00-quickstart.html").read_text("utf-8")
+    assert '<span class="kn">' in text and '<span class="n">' not in text
+
+
+def test_attached_pictures_are_as_wide_as_their_letters_need(site):
+    text = (site / "00-quickstart.html").read_text("utf-8")
+    (width,) = re.findall(r'<img alt="[^"]+" width="(\d+)" src="_shared/\w+\.(?:webp|png)">\s*</p>', text)[:1]
+    assert 400 < int(width) < 736
+
+
 def test_formulas_are_drawn_by_the_browser_itself(site):
     text = (site / "00-quickstart.html").read_text("utf-8")
     assert '<math xmlns="http://www.w3.org/1998/Math/MathML" display="block">' in text

@@ -6,3 +6,7 @@ declare const Search: {
 declare class Stemmer {
   stemWord(word: string): string;
 }
+
+// What `_static/texts.js` holds: the paragraphs of each page.
+
+declare const TEXTS: Record<string, string[]>;

@@ -13,7 +13,7 @@ from nbformat.v4 import new_code_cell, new_notebook, new_output
 from PIL import Image
 
 from mocap.plotting import bodies, charts, grids
-from mocap.plotting.picture import DPI, show
+from mocap.plotting.picture import DPI, SHOWN, show
 from tests.refusals import refused
 from tests.strategies import wave
 
@@ -72,6 +72,16 @@ def test_a_picture_without_a_sentence_is_refused():
 )
 def test_pictures_are_small(draw):
     assert len(show(draw(), alt="A picture.").picture) < 60_000
+
+
+def test_a_page_shows_a_picture_with_letters_as_large_as_its_text():
+    figure = Figure(figsize=(4, 4))
+    figure.text(0.5, 0.5, "words", fontsize=20)
+    data, metadata = show(figure, alt="Words.")._repr_mimebundle_()
+    width = metadata["image/png"]["width"]
+    assert f'width="{width}"' in data["text/html"]
+    assert 20 / 72 * DPI * width / (4 * DPI) == pytest.approx(SHOWN, abs=0.1)
+    assert show(axes(), alt="A drawing.")._repr_mimebundle_()[1]["image/png"]["width"] <= 2 * DPI
 
 
 def test_few_colours_change_nothing_visible():
