@@ -10,11 +10,13 @@ from __future__ import annotations
 
 import json
 import secrets
+import sys
 import tempfile
 from collections.abc import Callable, Sequence
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
+from socket import socket
 from string import Template
 from typing import Any
 
@@ -123,8 +125,10 @@ class SteeringServer(ThreadingHTTPServer):
         with self.session.lock:
             pass
 
-    def handle_error(self, *_: object) -> None:
-        """Ignore a connection that the browser has closed."""
+    def handle_error(self, request: socket | tuple[bytes, socket], client_address: object) -> None:
+        """Ignore a connection that the browser has closed, and print all other errors."""
+        if not isinstance(sys.exception(), ConnectionError | TimeoutError):
+            super().handle_error(request, client_address)
 
 
 class SteeringRequest(BaseHTTPRequestHandler):
