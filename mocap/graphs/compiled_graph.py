@@ -131,14 +131,18 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     label_names = sorted(marks)
     bears = np.array([marks[name] for name in label_names], bool).reshape(-1, len(table.of))
     macro_edges = find_macro_edges(table, starts, len(nodes), graph.fps)
-    roots_of = {"at": positions, "ahead": ahead, "going": directions, "ground": ground, "step": step}
+    # reads: statement: one field a line
     return CompiledGraph(
         **vars(table),
-        **roots_of,
         source=graph,
         nodes=nodes,
         edges=edges,
         target=target,
+        at=positions,
+        ahead=ahead,
+        going=directions,
+        ground=ground,
+        step=step,
         label_names=label_names,
         bears=bears,
         macro_edges=macro_edges,
