@@ -20,7 +20,8 @@ if TYPE_CHECKING:  # nbformat and nbval are imported only when a notebook is col
     from nbval.plugin import IPyNbCell, IPyNbFile
 
 collect_ignore = ["notebooks/examples"]  # programs: `tests/test_examples.py` runs them
-FIRST = ("test_lab", "test_release", "test_house")  # they wait most, while others compute
+# They wait most, while others compute, or take minutes, and no worker shall end the run alone.
+FIRST = ("test_lab", "test_release", "test_house", "test_mistakes_seen", "test_windows")
 LONG = (Path(__file__).parent / "tests" / "long.txt").read_text("utf-8")  # then files that are named here
 
 FEW_FILES = 8  # so many run sooner in one process: each worker imports everything again
