@@ -65,6 +65,9 @@ export default [
   {
     // These run as they are, not as modules; the search page has three names ready for them.
     files: ["mocap/course/*.js", "mocap/course/lab/questions.js"],
-    languageOptions: { sourceType: "script", globals: { Search: "readonly", Stemmer: "readonly", TEXTS: "readonly" } },
+    languageOptions: {
+      sourceType: "script",
+      globals: { Search: "readonly", Stemmer: "readonly", TEXTS: "readonly" },
+    },
   },
 ];
