@@ -55,7 +55,7 @@ def test_a_page_holds_the_scene_the_picture_and_the_sentence():
     assert f'<div class="mocap-ship"><img alt="{alt}" src="data:image/png;base64,UE5H">' in page
     assert repr(Ship()) == f"Ship({Ship.alt!r})"
     bundle, metadata = Ship()._repr_mimebundle_()
-    still, same = Picture(b"PNG", Ship.alt)._repr_mimebundle_()
+    still, same = Picture(b"PNG", Ship.alt, fitted=False)._repr_mimebundle_()
     assert bundle == still | {"text/html": Ship().html()} and metadata == same
 
 
