@@ -213,8 +213,8 @@ the footplants of the clips, and the fraction of footplant frames that clean-up 
 - wags: the variation of the direction while a command is constant;
 - pivots: the rotation of a foot during a contact, which is the disadvantage of rotating about it;
 - step and ready: CPU times of a step, as a mean and a maximum in the fastest of three runs, and of the
-preparation. The machine was loaded, which lengthens them. Below each table, two characters take turns in
-blocks of 30 steps, and the ratio of their times is given.
+preparation. They depend on the machine. Below each table, two characters take turns in blocks of 30 steps,
+and the ratio of their times is given.
 
 Values are means of three runs with different commands, ± their standard deviation. For the footplants kept
 it is the minimum. Strides and steps accept only a turn as command, and have the speed of their clips. The
