@@ -198,6 +198,6 @@ class OldModules(MetaPathFinder):
 
 
 def name_old_modules() -> None:
-    """Let imports of modules that have a new name say it."""
+    """Install the finder by which an import of a renamed module fails with the new name."""
     if not any(isinstance(finder, OldModules) for finder in sys.meta_path):
         sys.meta_path.append(OldModules())

@@ -61,8 +61,9 @@ def symmetry(skeleton: Skeleton) -> tuple[NDArray[np.intp], Array, Array]:
     images = body_sides.partners(skeleton)
     by_role = limb_partners(skeleton) if images == [*joints] else {}
     partners = np.array(images)
-    for left, right in by_role.items():
-        partners[[left, right]] = right, left
+    for joint, partner in by_role.items():
+        partners[joint] = partner
+        partners[partner] = joint
     is_symmetric = partners[partners] == joints
     is_symmetric[1:] &= partners[parents[1:]] == parents[partners[1:]]
     is_symmetric |= props(skeleton, partners)

@@ -35,10 +35,8 @@ from mocap.graphs.components import (
 from mocap.graphs.motion_graph import MotionGraph, require_graph
 
 NOTES_NODES = range(1, 9)
-NOTES_ARROWS = (
-    *((1, 2), (2, 3), (2, 6), (3, 1), (3, 4), (4, 4)),
-    *((6, 5), (6, 7), (7, 5), (7, 8), (8, 3)),
-)
+NOTES_SUCCESSORS = {1: (2,), 2: (3, 6), 3: (1, 4), 4: (4,), 6: (5, 7), 7: (5, 8), 8: (3,)}
+NOTES_ARROWS = tuple((start, end) for start, ends in NOTES_SUCCESSORS.items() for end in ends)
 """The edges of the graph of the notes, after [KGP02, Fig. 4]."""
 
 

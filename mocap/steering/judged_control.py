@@ -50,7 +50,8 @@ def command_headings(seconds: float, fps: float, seed: int = 0) -> Array:
 
     Notebook: 18-motion-matching
     """
-    random, count = np.random.default_rng(seed), int(np.ceil(seconds / EVERY))
+    random = np.random.default_rng(seed)
+    count = int(np.ceil(seconds / EVERY))
     turns = random.choice([-1, 1], count) * random.uniform(TURNS[0], TURNS[1], count)
     return np.repeat(np.cumsum(turns), round(EVERY * fps))[: round(seconds * fps)]
 
@@ -94,39 +95,47 @@ def judge_control(
         raise MocapError("The character's clips do not say when feet stand; mark_plants finds out.")
     with warnings.catch_warnings(action="ignore", category=MocapWarning):  # how much was let go is `kept`
         cleaned = clean_up(motion)
-    planted, slides = [], []
-    for some in (motion, cleaned):
-        planted.append(sum(int(mark.sum()) for mark in some.contacts.values()))
-        # Two frames are too few to slide.
-        slides.append(
-            mean_foot_sliding(slide for slide in foot_sliding(some) if slide.stop - slide.start > 2)
-        )
     limit = np.percentile(usual.within(1), USUAL)
-    return ControlReport(
-        measure_delay(make(), speed=speed, seed=seed),
-        slides[0],
-        slides[1],
-        planted[1] / planted[0],
-        float((jumps(motion) > limit).mean()),
-        _wags(motion, headings),
-        _pivots(motion),
-        float(np.abs(np.diff(on_ground(motion.root_positions))).mean() * motion.fps),
-    )
+    steps = np.abs(np.diff(on_ground(motion.root_positions)))
+    delay = measure_delay(make(), speed=speed, seed=seed)
+    slides = (_mean_slide(motion), _mean_slide(cleaned))
+    kept = _planted_frames(cleaned) / _planted_frames(motion)
+    jolting = float((jumps(motion) > limit).mean())
+    pace = float(steps.mean() * motion.fps)
+    return ControlReport(delay, *slides, kept, jolting, _wags(motion, headings), _pivots(motion), pace)
+
+
+def _planted_frames(motion: Motion) -> int:
+    """Count the frames in which joints are planted, over all joints."""
+    return sum(int(mark.sum()) for mark in motion.contacts.values())
+
+
+def _mean_slide(motion: Motion) -> float:
+    """Average the slides of planted joints. Plants of two frames are too short to slide."""
+    return mean_foot_sliding(slide for slide in foot_sliding(motion) if slide.stop - slide.start > 2)
 
 
 def _wags(motion: Motion, headings: Array) -> float:
     """Measure how the direction swings in the last half second of each command, degrees."""
-    back, half, every = (round(seconds * motion.fps) for seconds in (1 / 3, 1 / 2, EVERY))
-    track, ends = on_ground(motion.root_positions), np.arange(every, len(headings) + 1, every)
-    way = np.angle(track[back:] - track[:-back])[ends[:, None] - back + np.arange(-half, 0)]
-    return float(np.degrees(np.sqrt(np.var(np.unwrap(way), axis=1).mean())))
+    back = round(motion.fps / 3)
+    half = round(motion.fps / 2)
+    interval = round(EVERY * motion.fps)
+    track = on_ground(motion.root_positions)
+    directions = np.angle(track[back:] - track[:-back])
+    ends = np.arange(interval, len(headings) + 1, interval)
+    frames = ends[:, None] - back + np.arange(-half, 0)  # (commands, frames of half a second)
+    variances = np.var(np.unwrap(directions[frames]), axis=1)
+    return float(np.degrees(np.sqrt(variances.mean())))
 
 
 def _pivots(motion: Motion) -> float:
     """Average by how many degrees feet turn on the ground, from ankle to ball, while their ankles stand."""
-    points, turned = joint_positions(motion), []
+    positions = joint_positions(motion)
+    pivots = []
     for leg in find_legs(motion.skeleton):
-        way = np.angle(on_ground(points[:, leg.ball] - points[:, leg.ankle]))
-        plants = runs(motion.contacts[motion.skeleton.names[leg.ankle]])
-        turned += [np.ptp(np.unwrap(way[start:stop])) for start, stop in plants if stop - start > 2]
-    return float(np.degrees(np.mean(turned))) if turned else 0.0
+        directions = np.angle(on_ground(positions[:, leg.ball] - positions[:, leg.ankle]))
+        ankle = motion.skeleton.names[leg.ankle]
+        for start, stop in runs(motion.contacts[ankle]):
+            if stop - start > 2:
+                pivots.append(np.ptp(np.unwrap(directions[start:stop])))
+    return float(np.degrees(np.mean(pivots))) if pivots else 0.0

@@ -115,7 +115,7 @@ def shortest_waits(edges: Edges, start: Node, *, smoothest: bool = False) -> Wai
 
 
 class _Reached(NamedTuple):
-    """How a node is reached: after how many frames, from which node and by which edge."""
+    """A node that is reached: the frames until then, the node before it, and the edge from there."""
 
     frames: int
     source: Node

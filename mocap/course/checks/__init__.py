@@ -73,7 +73,7 @@ def withheld() -> bool:
 
 
 def nearest(name: str) -> str:
-    """Say what to do about a name that no exercise has.
+    """Return a remedy for a name that no exercise has.
 
     Examples
     --------

@@ -98,7 +98,7 @@ class BlindTest(Embedded):
 
     @property
     def alt(self) -> str:
-        """What the test is, and what its picture shows."""
+        """The description of the test and of its picture."""
         return f"{self!r} {ALT}"
 
     @cached_property
